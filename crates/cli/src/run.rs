@@ -226,7 +226,7 @@ fn set_threads(common: &Common) -> anyhow::Result<()> {
 
 /// Whether an option changes nothing in the result.
 fn is_silent(id: &str) -> bool {
-    ["quiet", "threads", "progress", "help", "version"].contains(&id)
+    ["quiet", "threads", "device", "progress", "help", "version"].contains(&id)
         || OUTPUTS.iter().any(|output| output.0 == id)
 }
 

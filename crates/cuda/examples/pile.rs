@@ -3,6 +3,7 @@
 //! `pile SCENE.toml COPIES,… STEPS [ROUNDS] [--gpu|--cpu]` puts so many copies of the pile side by side, makes the steps on both in turn, and prints a row
 //! of a table for each number of copies: medians of the rounds, 1 unless given.
 
+use dem::device::DeviceTimes;
 use dem::setup::Setup;
 use dem::{Halt, Simulation};
 use geom::Vec3;
@@ -79,8 +80,8 @@ fn side_by_side(one: &Setup, copies: u32) -> Setup {
     all
 }
 
-/// Seconds of so many steps after the first ones.
-fn time(sim: &mut Simulation, steps: u64) -> Result<f64, Halt> {
+/// Seconds of so many steps after the first ones, and how a device spent them.
+fn time(sim: &mut Simulation, steps: u64) -> Result<(f64, DeviceTimes), Halt> {
     let to = |sim: &mut Simulation, last: u64| -> Result<(), Halt> {
         while sim.steps() < last {
             sim.advance(last)?;
@@ -88,9 +89,15 @@ fn time(sim: &mut Simulation, steps: u64) -> Result<f64, Halt> {
         Ok(())
     };
     to(sim, WARM)?;
-    let start = Instant::now();
+    let (start, before) = (Instant::now(), sim.device_times().unwrap_or_default());
     to(sim, WARM + steps)?;
-    Ok(start.elapsed().as_secs_f64())
+    let (seconds, after) = (start.elapsed().as_secs_f64(), sim.device_times().unwrap_or_default());
+    let spent = DeviceTimes {
+        sending: after.sending - before.sending,
+        stepping: after.stepping - before.stepping,
+        fetching: after.fetching - before.fetching,
+    };
+    Ok((seconds, spent))
 }
 
 /// A number that any bit of any particle changes (FNV-1a).
@@ -121,8 +128,7 @@ fn row(one: &Setup, copies: u32, asked: Asked) -> Result<String, Box<dyn Error>>
         if asked.gpu {
             let mut sim = Simulation::new(setup.clone())?;
             sim.use_device(Box::new(cuda::Gpu::new(0)?)).map_err(|refused| refused.join(", "))?;
-            let seconds = time(&mut sim, steps)?;
-            let spent = sim.device_times().unwrap_or_default();
+            let (seconds, spent) = time(&mut sim, steps)?;
             there.push(speed(seconds));
             alone.push(speed(spent.stepping));
             sending.push(100.0 * spent.sending / seconds);
@@ -131,7 +137,7 @@ fn row(one: &Setup, copies: u32, asked: Asked) -> Result<String, Box<dyn Error>>
         }
         if asked.cpu {
             let mut sim = Simulation::new(setup.clone())?;
-            here.push(speed(time(&mut sim, steps)?));
+            here.push(speed(time(&mut sim, steps)?.0));
             (lists, _) = (sim.rebuilds(), marks.push(mark(&mut sim)?));
         }
         ratios.extend(there.last().zip(here.last()).map(|(a, b)| a / b));
@@ -149,6 +155,10 @@ fn row(one: &Setup, copies: u32, asked: Asked) -> Result<String, Box<dyn Error>>
         shown(&alone, "", 0),
         shown(&sending, " %", 0),
         shown(&fetching, " %", 0),
-        if same { "the same" } else { "DIFFERENT" }
+        match (asked.gpu && asked.cpu, same) {
+            (false, _) => "–",
+            (true, true) => "the same",
+            (true, false) => "DIFFERENT",
+        }
     ))
 }

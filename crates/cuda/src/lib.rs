@@ -27,7 +27,7 @@ pub enum CudaError {
     #[error("there is no CUDA driver here (libcuda)")]
     NoDriver,
     /// No GPU of this number.
-    #[error("there is no GPU {0} here: there are {1}")]
+    #[error("there is no GPU {0} here: they are numbered from 0, and there are {1}")]
     NoGpu(usize, usize),
     /// What the driver says.
     #[error("GPU {0}: {1}")]
@@ -126,7 +126,12 @@ impl Device for Gpu {
 
     fn allocate(&mut self, bytes: usize) -> Result<Address, DeviceError> {
         self.current().map_err(|e| self.failed(e))?;
-        let full = |_| DeviceError::Memory { device: self.name.clone(), bytes };
+        let full = |error: DriverError| match error.0 {
+            sys::CUresult::CUDA_ERROR_OUT_OF_MEMORY => {
+                DeviceError::Memory { device: self.name.clone(), bytes }
+            }
+            _ => self.failed(error),
+        };
         // SAFETY: memory that is new, of the size that is cleared.
         let at = unsafe {
             let at = result::malloc_sync(bytes.max(1)).map_err(full)?;
@@ -169,7 +174,10 @@ impl Device for Gpu {
         let (mut tables, mut step) = (*tables, step);
         let mut arguments: [*mut c_void; 2] = [(&raw mut tables).cast(), (&raw mut step).cast()];
         let blocks = u32::try_from(threads.div_ceil(BLOCK)).unwrap_or(u32::MAX);
-        let Some(&function) = self.functions.get(function) else { return Ok(()) };
+        let Some(&function) = self.functions.get(function) else {
+            let what = format!("it has no function {function}");
+            return Err(DeviceError::Failed { device: self.name.clone(), what });
+        };
         // SAFETY: arguments are those of the functions, and copied by the call; tables are in the memory of this GPU.
         unsafe {
             let size = (BLOCK as u32, 1, 1);

@@ -18,6 +18,8 @@ fn sources() -> Vec<PathBuf> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let engine = here.join("../dem/src");
     let mut files = vec![
+        here.join("kernels/Cargo.toml"),
+        here.join("kernels/Makefile"),
         here.join("kernels/src/lib.rs"),
         engine.join("float.rs"),
         engine.join("space/sphere.rs"),

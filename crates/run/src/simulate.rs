@@ -193,7 +193,7 @@ pub fn run<W: Write>(
         let step = run.sim.steps();
         run.sample()?;
         match run.settle(step).and_then(|()| run.write_due(step)) {
-            Err(Ended::Guard(halt)) => break Some(guard(scene, step, halt)?),
+            Err(Ended::Guard(halt)) => break Some(guard(scene, halt)?),
             Err(Ended::Failed(error)) => return Err(error),
             Ok(()) => {}
         }
@@ -217,16 +217,16 @@ pub fn run<W: Write>(
             other => other?,
         }
         if let Err(halt) = run.step(step) {
-            break Some(guard(scene, step, halt)?);
+            break Some(guard(scene, halt)?);
         }
     };
     run.finish(reason)
 }
 
 /// The message of a guard. What overlaps before the first step is an error of the scene, not of the calculation.
-pub(crate) fn guard(scene: &Scene, step: u64, halt: Halt) -> Result<String, SceneError> {
+pub(crate) fn guard(scene: &Scene, halt: Halt) -> Result<String, SceneError> {
     match halt {
-        Halt::Overlap { id, partner, overlap, .. } if step == 0 => {
+        Halt::Overlap { time, id, partner, overlap, .. } if time <= 0.0 => {
             let (name, partner) = (scene.text.name.clone(), partner.to_string());
             Err(SceneError::Inside { name, id, partner, overlap })
         }

@@ -2,6 +2,7 @@
 
 mod at_rest;
 mod continued;
+mod device;
 mod foretold;
 mod settled;
 mod stopped;

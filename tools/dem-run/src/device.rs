@@ -38,7 +38,7 @@ impl Accelerator {
     pub fn open(self) -> anyhow::Result<Box<dyn Device>> {
         let Accelerator::Cuda(number) = self else { return Ok(Box::new(Local::default())) };
         let gpu = cuda::Gpu::new(number)
-            .map_err(|e| anyhow::anyhow!("--device cuda: {e}; run without --device"))?;
+            .map_err(|e| anyhow::anyhow!("--device cuda:{number}: {e}; run without --device"))?;
         Ok(Box::new(gpu))
     }
 }

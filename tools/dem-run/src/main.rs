@@ -14,6 +14,7 @@ use misplaced::MCAP;
 use parts::Saved;
 use record::SIGNAL;
 use run::{Checkpoint, Progress, RunError, Settings, run};
+use scene::advice::DEVICE_FAILED;
 use scene::{Input, Plan, Scene, SceneError, SceneSetupError};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -277,6 +278,13 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
 /// Why a run stopped, and how to continue it.
 fn stopped(output: &Output, scene: &Scene, reason: &str, time: f64) -> String {
     let file = continued::file(output);
+    if reason.contains(DEVICE_FAILED) {
+        let on = file.map(|file| continued::sentence(&file, &[]));
+        return format!(
+            "stopped: {reason}{}",
+            on.map_or(String::new(), |on| format!("; {on}, without --device"))
+        );
+    }
     if reason != SIGNAL {
         let wider = continued::wider(scene, reason);
         let past = file.filter(|_| !wider.is_empty()).map(|file| continued::sentence(&file, &wider));

@@ -84,7 +84,7 @@ impl Device for Local {
         tables: &DeviceTables,
         step: u32,
     ) -> Result<(), DeviceError> {
-        // Every other launch backwards, and always with strides that are prime to the number of threads.
+        // In strides that are prime to the number of threads, from another one on in each launch.
         self.launched += 1;
         let stride = [7919, 104_729, 15_485_863][(self.launched % 3) as usize];
         let stride = if threads.is_multiple_of(stride) { 1 } else { stride };

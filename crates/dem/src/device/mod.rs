@@ -15,7 +15,8 @@ mod tables;
 mod tests;
 
 pub use local::Local;
-pub use stepper::{DeviceTimes, Stepper};
+pub use stepper::DeviceTimes;
+pub(crate) use stepper::Stepper;
 
 use crate::kernel::ported::NAMES;
 use crate::kernel::thread::{Address, DeviceTables};

@@ -1,6 +1,7 @@
 //! What a device does not compute: refused by name before anything starts.
 
-use crate::model::{Model, With};
+use crate::effects::{ContactLaw, active};
+use crate::model::Model;
 use crate::setup::WallShape;
 use crate::simd::Precision;
 use crate::state::State;
@@ -20,17 +21,21 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     refuse(state.strained.is_some(), "a strained domain");
     refuse(setup.drag.is_some(), "a fluid");
     refuse(setup.local_damping.is_some(), "local damping");
-    refuse(setup.ledger, "the energy ledger");
-    refuse(setup.precision != Precision::Double, "single precision");
+    refuse(setup.ledger || setup.guards.energy.is_finite(), "the energy ledger");
+    refuse(setup.precision != Precision::Double, "contacts in single precision");
     for (body, wall) in model.walls.iter().zip(&setup.walls) {
         refuse(body.answers(), &format!("wall '{}', which follows a force or stands on a spring", wall.name));
         refuse(matches!(wall.shape, WallShape::Mesh(_)), &format!("the triangles of wall '{}'", wall.name));
     }
-    let name = |m: u16| &setup.materials[m as usize].name;
-    for kind in model.kinds.iter().filter(|k| k.kernel.ported().is_none()) {
-        let (a, b) = kind.between;
-        let with = if let With::Wall(w) = kind.with { &setup.walls[w].name } else { name(b) };
-        refuse(true, &format!("the contact law of {} and {with}", name(a)));
+    if setup.precision == Precision::Double {
+        for kind in model.kinds.iter().filter(|k| k.kernel.ported().is_none()) {
+            let (a, b) = kind.between;
+            let name = |m: u16| &setup.materials[m as usize].name;
+            let of = |law: &&ContactLaw| law.between == (a, b) || law.between == (b, a);
+            let effects = setup.contacts.iter().find(of).into_iter().flat_map(active).map(|d| d.name);
+            let effects = effects.collect::<Vec<_>>().join(" + ");
+            refuse(true, &format!("the contact law of {} and {} ({effects})", name(a), name(b)));
+        }
     }
     found.dedup();
     found

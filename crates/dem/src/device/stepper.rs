@@ -3,7 +3,6 @@
 use crate::device::refused::refused;
 use crate::device::tables::Table;
 use crate::device::{Device, DeviceError};
-use crate::kernel::MoveInputs;
 use crate::kernel::ported::NAMES;
 use crate::kernel::thread::{
     DeviceBlock, DeviceFlags, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PARTICLES, PLANE, SPHERES,
@@ -12,7 +11,7 @@ use crate::kernel::wall_point::WallPose;
 use crate::model::{Model, With};
 use crate::neighbours::{NeighbourLists, Slots};
 use crate::setup::WallShape;
-use crate::simd::{BLOCK, FORCE_AND_MOMENT, Row, TORQUE};
+use crate::simd::{BLOCK, Row, TORQUE};
 use crate::state::State;
 use crate::walls::images::Image;
 use geom::Vec3;
@@ -135,13 +134,12 @@ impl Stepper {
         }
         let Stepper { device, tables: t, columns: c, .. } = self;
         let (slots, device) = (&lists.slots, device.as_mut());
+        if u32::try_from(slots.history.max(2 * slots.i.len())).is_err() {
+            let what = format!("{} contacts are more than its tables number", slots.len());
+            return Err(DeviceError::Failed { device: device.name(), what });
+        }
         let (count, torques) = (slots.i.len(), state.torques(model));
-        t.drive = MoveInputs {
-            dt: model.dt,
-            ahead: model.ahead(),
-            gravity: model.setup.gravity.into(),
-            motion_limit: model.setup.guards.motion,
-        };
+        t.drive = model.move_inputs();
         t.overlap_limit = model.setup.guards.overlap;
         (t.particles, t.slots, t.tile) = (slots.particles as u32, count as u32, slots.tile as u32);
         t.walls = model.walls.len() as u32;
@@ -158,7 +156,7 @@ impl Stepper {
         t.blocks = c.blocks.write(device, &blocks(slots))?;
         t.points = c.points.write(device, &points(model, state, lists))?;
         let force = model.layout().force();
-        t.forces = c.forces.room::<f64>(device, count * force.min(FORCE_AND_MOMENT))?;
+        t.forces = c.forces.room::<f64>(device, count * force)?;
         t.moments = c.moments.room::<f64>(device, if torques { count * TORQUE } else { 0 })?;
         let mut found: Vec<usize> =
             slots.segments.iter().map(|s| kinds[s.kind].composition as usize).collect();
@@ -190,6 +188,8 @@ impl Stepper {
     ) -> Result<Found, DeviceError> {
         let (functions, moves) = (self.compositions.clone(), NAMES.len() + self.tables.rotates as usize);
         let (mut done, start) = (0, Instant::now());
+        // From here on the device is ahead.
+        self.held = None;
         loop {
             let Stepper { device, tables: t, columns: c, .. } = self;
             let device = device.as_mut();
@@ -219,11 +219,17 @@ impl Stepper {
         let start = Instant::now();
         let Stepper { device, columns: c, .. } = self;
         let (p, device) = (&mut state.particles, device.as_mut());
-        c.rows.read(device, &mut p.rows)?;
-        c.spins.read(device, &mut p.spins)?;
-        c.acceleration.read(device, &mut p.acceleration)?;
-        c.angular_acceleration.read(device, &mut p.angular_acceleration)?;
-        c.history.read(device, &mut state.contacts.history)?;
+        // All of them or none: a device may fail in between.
+        let (mut rows, mut spins) = (p.rows.clone(), p.spins.clone());
+        let (mut acceleration, mut turned) = (p.acceleration.clone(), p.angular_acceleration.clone());
+        c.rows.read(device, &mut rows)?;
+        c.spins.read(device, &mut spins)?;
+        c.acceleration.read(device, &mut acceleration)?;
+        c.angular_acceleration.read(device, &mut turned)?;
+        let mut history = state.contacts.history.clone();
+        c.history.read(device, &mut history)?;
+        (p.rows, p.spins, p.acceleration, p.angular_acceleration) = (rows, spins, acceleration, turned);
+        state.contacts.history = history;
         self.held = Some(steps);
         self.times.fetching += start.elapsed().as_secs_f64();
         Ok(())

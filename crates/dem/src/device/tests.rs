@@ -149,16 +149,27 @@ fn the_same_bits_where_it_is_watched_and_resumed() {
     assert!(bits(&mut resumed) == bits(&mut here(trough(effects), 900)));
 }
 
+/// Of two grains, of a plane, of a pair across a periodic face, and of wall spheres that move.
 #[test]
 fn a_guard_stops_it_in_the_same_step_for_the_same_reason() {
-    let mut setup = trough(every_composition()[1]);
-    setup.guards.overlap = 0.05;
-    setup.particles.iter_mut().for_each(|p| p.velocity.z = -2.0);
-    let mut sim = Simulation::new(setup.clone()).expect("sound");
-    let halt = (0..1200).find_map(|_| sim.step().err()).expect("too deep");
-    let mut device = there(setup, Local::default());
-    assert_eq!(advance(&mut device, 1200), Err(halt));
-    assert_eq!(device.steps(), sim.steps());
+    type Drives = (fn(Effects) -> Setup, fn(u32) -> Vec3, &'static str);
+    let cases: [Drives; 4] = [
+        (trough, |k| Vec3::new(if k % 2 == 0 { 2.0 } else { -2.0 }, 0.0, 0.0), "particle "),
+        (shaken, |k| if k % 8 == 7 { Vec3::x() * 3.0 } else { Vec3::zeros() }, "wall 'right'"),
+        (trough, |k| Vec3::y() * if k / 8 % 10 < 5 { -2.0 } else { 2.0 }, "particle "),
+        (shaken, |_| Vec3::z() * -2.0, "wall 'floor'"),
+    ];
+    for (make, velocity, partner) in cases {
+        let mut setup = make(every_composition()[1]);
+        setup.guards.overlap = 0.03;
+        (0..).zip(&mut setup.particles).for_each(|(k, p)| p.velocity = velocity(k));
+        let mut sim = Simulation::new(setup.clone()).expect("sound");
+        let halt = (0..1200).find_map(|_| sim.step().err()).expect("too deep").to_string();
+        assert!(halt.contains(&format!("overlaps {partner}")), "{halt}");
+        let mut device = there(setup, Local::default());
+        assert_eq!(advance(&mut device, 1200).expect_err("too deep").to_string(), halt);
+        assert_eq!(device.steps(), sim.steps());
+    }
 }
 
 #[test]
@@ -173,7 +184,11 @@ fn what_it_does_not_compute_is_named() {
     setup.contacts[1].set("sliding_friction", 0.1);
     let mut sim = Simulation::new(setup).expect("sound");
     let refused = sim.use_device(Box::new(Local::default())).expect_err("it does not compute that");
-    let expected = ["the energy ledger", "the triangles of wall 'floor'", "the contact law of a and b"];
+    let expected = [
+        "the energy ledger",
+        "the triangles of wall 'floor'",
+        "the contact law of a and b (hertz + sliding_friction + twisting_resistance)",
+    ];
     assert!(expected.iter().all(|e| refused.iter().any(|r| r == e)), "{refused:?}");
 }
 
@@ -219,9 +234,13 @@ impl Device for Failing {
 
 #[test]
 fn a_device_that_fails_stops_the_run() {
-    for calls in [0, 1, 20, 60, 500] {
-        let mut sim = there(trough(every_composition()[2]), Failing(Local::default(), calls));
+    for calls in [0, 1, 20, 60, 500, 501, 502, 503, 504, 505, 506, 507] {
+        let setup = || trough(every_composition()[2]);
+        let mut sim = there(setup(), Failing(Local::default(), calls));
         let halt = advance(&mut sim, 1200).expect_err("it failed");
         assert!(halt.to_string().ends_with("GPU: fell off the bus"), "{halt}");
+        // Nothing of the steps that were under way is left.
+        let steps = sim.steps();
+        assert!(bits(&mut sim) == bits(&mut here(setup(), steps)), "after {calls} calls");
     }
 }

@@ -11,6 +11,8 @@ use crate::simd::{BLOCK, FORCE, FORCE_AND_MOMENT, Indices, Lane, Number, Row, Ro
 
 /// Blocks between the one whose rows are prefetched and the one that is computed; chosen on the bench pile.
 const AHEAD: usize = 4;
+/// Several units in the last place of a square [–].
+const ROUNDING: f64 = 2e-15;
 
 #[inline(always)]
 pub fn blocks<R: Lane, E: Effect, T: Number, const KEEP: bool>(
@@ -142,7 +144,9 @@ impl<R: Lane> Ends<'_, R> {
     #[inline(always)]
     fn meet_soon(&self, step: &StepInputs) -> bool {
         let shrinks = size(R::narrow(self.apart.dot(self.velocities[0]))) * R::splat(2.0 * step.ahead);
-        step.ahead > 0.0 && R::any((self.gap + shrinks).gt(R::splat(0.0)))
+        // A gap of less than what d² is rounded by counts as none: `average` takes the difference of distances, which may then be 0.
+        let rounding = R::splat(ROUNDING) * R::narrow(self.square);
+        step.ahead > 0.0 && R::any((self.gap + shrinks + rounding).gt(R::splat(0.0)))
     }
 }
 

@@ -139,7 +139,8 @@ impl<E: Effect, T: Number, const KEEP: bool> Job for Blocks<'_, E, T, KEEP> {
     type Output = bool;
     #[inline(always)]
     fn run<R: Lane>(self) -> bool {
-        contact_loop::blocks::<R, E, T, KEEP>(self.effect, self.step, self.batch)
+        let Blocks { effect, step, batch, .. } = self;
+        contact_loop::blocks::<R, E, T, KEEP>(effect, step, batch)
     }
 }
 

@@ -195,6 +195,7 @@ impl DeviceTables {
 /// Tables are in place and hold what they say; no other thread has this slot, and none moves particles meanwhile.
 #[inline(always)]
 pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, slot: usize) {
+    const { assert!(E::HISTORY <= COLUMNS) };
     // SAFETY: by contract; this thread alone writes to the rows of its slot.
     unsafe {
         if slot >= t.slots as usize || t.is_over(step) {

@@ -88,7 +88,7 @@ pub enum Halt {
         position: Vec3,
     },
     /// The device that makes the steps has failed; the state is that of `time`.
-    #[error("t = {time:.6e} s: {what}")]
+    #[error("t = {time:.6e} s: the device has failed: {what}")]
     Device {
         /// When [s].
         time: f64,

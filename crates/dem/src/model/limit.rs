@@ -11,7 +11,7 @@
 //! ```
 //!
 //! For rigid clumps 1/m* is that of their yielding in a_n and a_t, and b_n = γ √(S m*)/m*, b_t = γ √(k_t m*)/m* have m* of the whole
-//! clumps under the root. Effects that the scene does not ask for count 0. The integrator of [`crate::passes::integrate`] turns unstable by an eigenvalue of −1:
+//! clumps under the root. Effects that the scene does not ask for count 0. The integrator of [`crate::kernel::motion`] turns unstable by an eigenvalue of −1:
 //! A Δt²/4 + B Δt = 1, the dashpot seeing the predicted velocity. 4 and 8: twelve contacts, Σ n nᵀ = 4 and Σ (1 − n nᵀ) = 8,
 //! each against a neighbour that moves the other way; 16: a tangential spring that is late by half a step, the most there is, counts
 //! twice. c: as many times twelve small ones touch a large one (3 (1 + q)² together), which may be the lighter; the largest eigenvalue of the whole is

@@ -33,7 +33,7 @@ pub use step_cause::{
 };
 
 use crate::effects::needed;
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, MoveInputs};
 use crate::model::limit::{critical_of_contacts, largest_reach};
 use crate::model::servo::{Response, responses};
 use crate::model::start::{faster_than_sleep, kinds, mean_radius, slow_enough, time_step};
@@ -148,6 +148,12 @@ impl Model {
     /// How far ahead in time contacts are looked for, half a step or nothing [s].
     pub fn ahead(&self) -> f64 {
         self.setup.sampling.ahead(self.dt)
+    }
+
+    /// What all particles share in a move.
+    pub fn move_inputs(&self) -> MoveInputs {
+        let (gravity, motion_limit) = (self.setup.gravity.into(), self.setup.guards.motion);
+        MoveInputs { dt: self.dt, ahead: self.ahead(), gravity, motion_limit }
     }
 
     /// How the numbers of contacts are kept.

@@ -287,7 +287,13 @@ pub fn steps_of_walls(model: &Model, state: &State, most: u64) -> u64 {
     if model.walls.iter().all(|wall| wall.fastest() == 0.0) {
         return most;
     }
-    (1..most).find(|n| !walls_stay(model, state, state.steps + n)).unwrap_or(most)
+    // The longer a wall moves, the farther it may be.
+    let (mut stay, mut leave) = (1, most + 1);
+    while leave - stay > 1 {
+        let middle = stay + (leave - stay) / 2;
+        *if walls_stay(model, state, state.steps + middle - 1) { &mut stay } else { &mut leave } = middle;
+    }
+    stay
 }
 
 /// Notes which particles may pass a storage plane, or come back through it, before the next rebuild: only their margins reach it. Members of clumps

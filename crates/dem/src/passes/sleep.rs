@@ -30,9 +30,7 @@ pub fn advance_awake(
     stirred: Option<Stirred>,
 ) -> MoveFlags {
     let (mut moved, width) = (MoveFlags::default(), model.width);
-    let gravity = model.setup.gravity.into();
-    let drive =
-        &MoveInputs { dt: model.dt, ahead: model.ahead(), gravity, motion_limit: model.setup.guards.motion };
+    let drive = &model.move_inputs();
     let (Some(mut sleeper_slices), Some(stirred)) = (columns.sleeper_slices.take(), stirred) else {
         return advance(width, columns, drive);
     };

@@ -3,12 +3,14 @@
 use super::Simulation;
 use crate::device::{Device, DeviceError, DeviceTimes, Stepper};
 use crate::forces::sweep;
-use crate::model::Halt;
+use crate::model::{Halt, Model};
 use crate::neighbours::poses::pose_in_box;
-use crate::neighbours::rebuild;
+use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
+use crate::passes::touching::position_before;
 use crate::simulation::step::{check_overlap, refresh_lists};
-use crate::state::{Forces, ListStatus};
+use crate::state::{Forces, ListStatus, State};
+use geom::Vec3;
 use std::time::{Duration, Instant};
 
 /// How long a device computes before the state is fetched: what stops a run is asked in between. No result depends on it.
@@ -85,6 +87,7 @@ impl Simulation {
             state.listing.outdate(ListStatus::MarginLeft);
         }
         if found.flags.deep != 0 {
+            find_points_before(model, state, lists);
             let all = 0..lists.slots.segments.len();
             check_overlap(model, state, lists, &[all], true)?;
         }
@@ -93,4 +96,17 @@ impl Simulation {
         }
         Ok(())
     }
+}
+
+/// Contact points of images and walls as they were when the forces of the last step were computed, before its move: the device has had them.
+fn find_points_before(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    let before: Vec<Vec3> = (0..state.particles.len()).map(|k| position_before(model, state, k)).collect();
+    let now = state.particles.rows.clone();
+    state.particles.rows.iter_mut().zip(&before).for_each(|(row, x)| row[..3].copy_from_slice(x.as_slice()));
+    state.steps -= 1;
+    lists.slots.new = true;
+    sweep::find_contact_points(model, state, lists);
+    lists.slots.new = false;
+    state.steps += 1;
+    state.particles.rows = now;
 }

@@ -5,7 +5,7 @@
 //! end has turned:
 //!
 //! ```text
-//! q ← exp(ω_{n−½} Δt) q,   ω_{n−½} = w*_n − α_{n−1} Δt/2          what [`crate::passes::integrate`] has turned it by
+//! q ← exp(ω_{n−½} Δt) q,   ω_{n−½} = w*_n − α_{n−1} Δt/2          what [`crate::kernel::motion`] has turned it by
 //! ```
 //!
 //! Places and turns of one instant in the springs, velocities predicted for it in the dashpots: with springs alone that is velocity Verlet, which makes no energy

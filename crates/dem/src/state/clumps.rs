@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! F = Σ F_k,   τ = Σ (r_k × F_k + M_k)              in the order of the members
-//! v_n = v* + (a_n − a_{n−1}) Δt/2,   L_n = L* + (τ_n − τ_{n−1}) Δt/2        as in [`crate::passes::integrate`]
+//! v_n = v* + (a_n − a_{n−1}) Δt/2,   L_n = L* + (τ_n − τ_{n−1}) Δt/2        as in [`crate::kernel::motion`]
 //! x ← x + v_n Δt + a_n Δt²/2,   v* ← v_n + a_n Δt
 //! R ← free turn of L_n + τ_n Δt/2 over Δt ([`turn`]),   L* ← L_n + τ_n Δt
 //! ```

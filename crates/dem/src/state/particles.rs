@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Columns, one entry a particle; `rows` and `spins` have two more ([`FAR`]).
 ///
 /// Positions are those of the step; velocities and spins are predicted for it from the acceleration of the step
-/// before, so that forces use positions and velocities of one instant ([`crate::passes::integrate`]).
+/// before, so that forces use positions and velocities of one instant ([`crate::kernel::motion`]).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Particles {
     /// x, y, z, radius [m], predicted velocity [m/s], 1/m [1/kg].

@@ -129,7 +129,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
     let limit = critical_step(&setup)?;
     let mut sim = Simulation::new(setup.clone())?;
     if let Err(halt) = sim.particles() {
-        guard(scene, 0, halt)?;
+        guard(scene, halt)?;
     }
     let Schedule { dt, last, .. } = Schedule::new(scene, sim.dt())?;
     let matched_damping = sim.matched_damping();

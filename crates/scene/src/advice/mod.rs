@@ -22,6 +22,9 @@ impl From<SetupError> for SceneSetupError {
     }
 }
 
+/// What the message of [`Halt::Device`] has.
+pub const DEVICE_FAILED: &str = "the device has failed";
+
 /// What else helps grains that overlap too far.
 const SOFTER: &str =
     "let grains meet more slowly (a lower drop or speed of insertion), shorten dt, or raise guards.overlap";
@@ -57,7 +60,7 @@ pub fn explain_halt(halt: &Halt) -> String {
         Halt::WallPastAll { .. } => {
             "turn wall.servo.direction round if it points away from the grains, or start the wall where it meets them"
         }
-        Halt::Device { .. } => "run without --device, or with fewer grains",
+        Halt::Device { .. } => "go on without --device",
         Halt::CellTooSmall { .. } => "end the run before, or take a larger domain with more grains",
         Halt::NotKept { .. } => "set record_wrenches in the setup",
         Halt::CameBack { .. } => {

@@ -248,7 +248,10 @@ fn halts() -> Vec<Advice<Halt>> {
             Halt::CellTooSmall { time, axis: 'x', length: 0.04, least: 0.05 },
             &["4.0000e-2 m long along x", "5.0000e-2 m", "larger domain"],
         ),
-        (Halt::Device { time, what: "GPU 0: out of memory".to_owned() }, &["GPU 0", "without --device"]),
+        (
+            Halt::Device { time, what: "GPU 0: out of memory".to_owned() },
+            &["GPU 0", super::DEVICE_FAILED, "without --device"],
+        ),
     ]
 }
 
