@@ -9,7 +9,7 @@ mod staged;
 use cudarc::driver::result::{self, DriverError};
 use cudarc::driver::sys::{self, CUcontext, CUdevice, CUfunction, CUmodule};
 use dem::device::{Device, DeviceError, functions};
-use dem::thread::{Address, DeviceTables};
+use dem::device_tables::{Address, DeviceTables};
 use staged::Staged;
 use std::ffi::{CString, c_void};
 use std::ptr::null_mut;

@@ -58,7 +58,7 @@ mod threads;
 #[cfg(not(target_arch = "nvptx64"))]
 mod walls;
 
-pub use kernel::{ported, thread};
+pub use kernel::{device_tables, ported, thread};
 #[cfg(not(target_arch = "nvptx64"))]
 pub use model::bonds::limit::entries as bonds_of;
 #[cfg(not(target_arch = "nvptx64"))]

@@ -19,9 +19,10 @@ fn main() -> ExitCode {
 
 fn lab_test(args: Args) -> anyhow::Result<Report> {
     args.check()?;
-    let lab = lay_out(&args)?;
+    let toml = args.sample.read_text()?;
+    let lab = lay_out(&args, &toml, &args.seeds())?;
     if args.print_scene || args.print_preparation {
-        return print_scene(&args, &lab);
+        return print_scene(&args, &toml, &lab);
     }
     let kept = args.dir.as_ref().map(std::path::absolute).transpose()?;
     let own = tempfile::tempdir().context("cannot make a folder for the runs: give one with --dir")?;
@@ -44,13 +45,12 @@ fn lab_test(args: Args) -> anyhow::Result<Report> {
     }
 }
 
-fn lay_out(args: &Args) -> anyhow::Result<Lab> {
-    let toml = args.sample.read_text()?;
+fn lay_out(args: &Args, toml: &str, seeds: &[u64]) -> anyhow::Result<Lab> {
     let name = args.sample.to_string();
     let folder = args.sample.path().and_then(Path::parent).unwrap_or(Path::new("")).to_owned();
-    let sample = Sample::new(&name, toml, &args.set, &folder).map_err(refused)?;
+    let sample = Sample::new(&name, toml.to_owned(), &args.set, &folder).map_err(refused)?;
     cli::also_reads(sample.files.clone())?;
-    let lab = Lab::new(args.test()?, sample, args.request(), &args.seeds()).map_err(refused)?;
+    let lab = Lab::new(args.test()?, sample, args.request(), seeds).map_err(refused)?;
     if !lab.is_random() {
         args.seed.none(&format!("{} with these grains", lab.recipe().name()))?;
     }
@@ -68,7 +68,7 @@ fn refused(error: LabError) -> anyhow::Error {
     }
 }
 
-fn print_scene(args: &Args, lab: &Lab) -> anyhow::Result<Report> {
+fn print_scene(args: &Args, toml: &str, lab: &Lab) -> anyhow::Result<Report> {
     let (which, name) = match args.print_scene {
         true => (Which::Test, "test"),
         false => (Which::Preparation, "preparation"),
@@ -79,6 +79,10 @@ fn print_scene(args: &Args, lab: &Lab) -> anyhow::Result<Report> {
             "--print-preparation: {test} takes these grains as they are: leave it out"
         )));
     };
+    let other = lay_out(args, toml, &[args.seed.seed().wrapping_add(1)])?;
+    if other.scene(which).map_err(refused)?.as_ref() == Some(&scene) {
+        args.seed.none(&format!("the scene of the {name}"))?;
+    }
     outputs::text(&args.output, &scene)?;
     Ok(Report::new(format!("the scene of the {name}; nothing was run")))
 }

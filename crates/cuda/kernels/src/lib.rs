@@ -4,7 +4,8 @@
 #![feature(abi_ptx, stdarch_nvptx)]
 
 use core::arch::nvptx::{_block_dim_x, _block_idx_x, _thread_idx_x};
-use dem::thread::{DeviceTables, contact, particle};
+use dem::device_tables::DeviceTables;
+use dem::thread::{contact, particle};
 
 /// Number of this thread.
 #[inline(always)]

@@ -2,8 +2,9 @@
 #![expect(unsafe_code, reason = "it calls what a device runs, with tables that lie in its own memory")]
 
 use crate::device::{Device, DeviceError};
+use crate::kernel::device_tables::{Address, DeviceTables};
 use crate::kernel::ported::NAMES;
-use crate::kernel::thread::{Address, DeviceTables, contact, particle};
+use crate::kernel::thread::{contact, particle};
 use std::collections::BTreeMap;
 
 /// A device in the memory of this process.

@@ -18,8 +18,8 @@ pub use local::Local;
 pub use stepper::DeviceTimes;
 pub(crate) use stepper::Stepper;
 
+use crate::kernel::device_tables::{Address, DeviceTables};
 use crate::kernel::ported::NAMES;
-use crate::kernel::thread::{Address, DeviceTables};
 
 /// Functions that a device must have, by number: the compositions, then the moves without and with rotation.
 pub fn functions() -> Vec<&'static str> {

@@ -3,10 +3,10 @@
 use crate::device::refused::refused;
 use crate::device::tables::Table;
 use crate::device::{Device, DeviceError};
-use crate::kernel::ported::NAMES;
-use crate::kernel::thread::{
+use crate::kernel::device_tables::{
     DeviceBlock, DeviceFlags, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PARTICLES, PLANE, SPHERES,
 };
+use crate::kernel::ported::NAMES;
 use crate::kernel::wall_point::WallPose;
 use crate::model::{Model, With};
 use crate::neighbours::{NeighbourLists, Slots};

@@ -3,7 +3,7 @@
 
 use crate::device::{Device, DeviceError};
 use crate::kernel::SlotEnd;
-use crate::kernel::thread::{Address, DeviceBlock, DeviceFlags, DeviceKind};
+use crate::kernel::device_tables::{Address, DeviceBlock, DeviceFlags, DeviceKind};
 use crate::kernel::wall_point::WallPose;
 use crate::simd::{Row, Row4};
 

@@ -4,10 +4,9 @@
 //! operation and takes several times as long.
 
 use super::averaged::{average, size};
-use super::sums::Pairs;
-use super::{Batch, LEDGER, LOST, StepInputs};
+use super::{Batch, LEDGER, LOST, StepInputs, WrenchBuffer};
 use crate::effects::{Contact, DISSIPATORS, Effect, History, Response};
-use crate::simd::{BLOCK, FORCE, FORCE_AND_MOMENT, Indices, Lane, Number, Row, Row4, TORQUE, V, fetch};
+use crate::simd::{BLOCK, FORCE, FORCE_AND_MOMENT, Indices, Lane, Number, Row, Row4, V, fetch};
 
 /// Blocks between the one whose rows are prefetched and the one that is computed; chosen on the bench pile.
 const AHEAD: usize = 4;
@@ -312,43 +311,4 @@ fn released<R: Lane>(row: &[R; LEDGER], touching: R::Mask) -> R {
         largest = largest.max(size(*x));
     }
     R::select(touching, zero, largest)
-}
-
-/// Wrenches of some contacts, as they have just been computed.
-#[repr(align(64))]
-pub struct WrenchBuffer<T> {
-    forces: [T; BLOCK * FORCE_AND_MOMENT],
-    torques: [T; BLOCK * TORQUE],
-}
-
-impl<T: Number> WrenchBuffer<T> {
-    /// Of none.
-    #[inline(always)]
-    pub fn new() -> WrenchBuffer<T> {
-        WrenchBuffer {
-            forces: [T::default(); BLOCK * FORCE_AND_MOMENT],
-            torques: [T::default(); BLOCK * TORQUE],
-        }
-    }
-
-    /// Adds the wrenches (of `N` numbers) of `width` contacts from slot `at` on to their particles, and copies them where they are kept.
-    #[inline(always)]
-    fn scatter<const N: usize>(&self, batch: &mut Batch, at: usize, width: usize, torques: bool) {
-        let pairs = Pairs { i: &batch.i[at..at + width], j: &batch.j[at..at + width], both: batch.both };
-        let forces = &self.forces[..width * N];
-        let torques = if torques { &self.torques[..width * TORQUE] } else { &[] };
-        batch.sums.accumulate::<T, N>(pairs, forces, torques);
-        keep(batch.kept.forces, at * N, forces);
-        keep(batch.kept.torques, at * TORQUE, torques);
-        keep(batch.each.forces, at * N, forces);
-        keep(batch.each.torques, at * TORQUE, torques);
-    }
-}
-
-/// Copies to a column, if there is one.
-#[inline(always)]
-fn keep<T: Number>(column: &mut [f64], at: usize, rows: &[T]) {
-    if !column.is_empty() {
-        T::of_mut(column)[at..at + rows.len()].copy_from_slice(rows);
-    }
 }

@@ -2,9 +2,11 @@
 
 use alloc::vec::Vec;
 mod averaged;
+mod buffer;
 #[cfg(not(target_arch = "nvptx64"))]
 pub(crate) mod compose;
 pub(crate) mod contact_loop;
+pub mod device_tables;
 pub(crate) mod motion;
 pub mod ported;
 pub(crate) mod sums;
@@ -13,6 +15,7 @@ pub(crate) mod wall_point;
 pub(crate) mod wrenches;
 
 pub(crate) use averaged::average;
+pub(crate) use buffer::WrenchBuffer;
 pub(crate) use motion::{MoveFlags, MoveInputs, Mover};
 pub(crate) use ported::Ported;
 pub(crate) use sums::{Pairs, Sums, WrenchSums};

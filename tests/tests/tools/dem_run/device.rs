@@ -34,7 +34,7 @@ material = "sand"
 name = "floor"
 plane = "0,0,0,0,0,1"
 material = "sand"
-motion = { amplitude = [0, 0, 2e-4], frequency = 50 }
+motion = { vibrate = { amplitude = [0, 0, 2e-4], frequency = 50 } }
 "#;
 
 #[test]
@@ -72,7 +72,7 @@ fn a_guard_says_the_same() {
 
 #[test]
 fn what_a_device_does_not_compute_is_named() {
-    let folder = with(&BOX.replace("[[contact]]", "[local_damping]\n[sleep]\n[[contact]]"));
+    let folder = with(&BOX.replace("[[contact]]", "[local_damping]\n[sleep]\nspeed = 0.01\n[[contact]]"));
     let done = tool(folder.path(), "dem-run", &["s.toml", "--device", "local", "-o", "s.mcap"]);
     let expected = "--device: it does not compute sleep, local damping (docs/gpu.md says what it does)";
     assert!(done.code != 0 && done.stderr.contains(expected), "{}", done.stderr);

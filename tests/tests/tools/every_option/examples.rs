@@ -10,7 +10,6 @@ pub const FORMS: &[(&str, &str, usize)] = &[
     ("cost-curve", "--laboratory", 1),
     ("dem-measure", "--axis", 2),
     ("dem-measure", "--wall", 1),
-    ("dem-run", "--device", 2),
 ];
 
 /// Command lines; each ends with code 0.

@@ -52,6 +52,10 @@ const REFUSED: &[(&str, &str)] = &[
         "lab-test uniaxial stone.toml --seed 3",
         "--seed: uniaxial with these grains leaves nothing to chance: leave it out",
     ),
+    (
+        "lab-test triaxial-periodic soil.toml --set gravity=[0,0,0] --grains 200 --print-scene --seed 3",
+        "--seed: the scene of the test leaves nothing to chance: leave it out",
+    ),
     ("stone-clump tetra.ply --spheres 3 --name x -o c.csv", "--name: -o c.csv has the spheres alone"),
     ("dem-run s.toml --materials", "--materials has no effect: no [[material]] leaves out a number"),
     ("dem-run s.toml --check --device local", "--device: --check runs nothing: leave it out"),

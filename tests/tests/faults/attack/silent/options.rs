@@ -30,6 +30,7 @@ pub const FREE: &[(&str, &str, &str)] = &[
     ("stage-replay", "--intervals", "the default is the only one for recorded paths"),
     ("stage-replay", "--keep-times", "the examples begin at time 0"),
     ("stage-replay", "--outlet", "the examples have one outlet"),
+    ("stone-pack", "--tolerance", "every try may be too heavy for any of them"),
     ("wallgen", "--flow-at", "names the side that a closed drawing has anyway"),
     ("wallgen", "--largest-particle", "a check that finds nothing"),
     ("wallgen", "--place", "centre is the default"),
