@@ -142,8 +142,9 @@ impl<E: Effect, T: Number, const KEEP: bool> Job for Blocks<'_, E, T, KEEP> {
     type Output = bool;
     #[inline(always)]
     fn run<R: Lane>(self) -> bool {
-        let Blocks { effect, step, batch, .. } = self;
-        contact_loop::blocks::<R, E, T, KEEP>(effect, step, batch)
+        // A copy: numbers behind a reference in a struct are read again after every write.
+        let effect = *self.effect;
+        contact_loop::blocks::<R, E, T, KEEP>(&effect, self.step, self.batch)
     }
 }
 

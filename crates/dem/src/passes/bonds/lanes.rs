@@ -46,7 +46,8 @@ impl Job for BondChunk<'_> {
     type Output = bool;
     #[inline(always)]
     fn run<R: Lane>(self) -> bool {
-        groups::<R>(self.at, (self.pairs, self.springs), self.pulls)
+        let at = *self.at;
+        groups::<R>(&at, (self.pairs, self.springs), self.pulls)
     }
 }
 
