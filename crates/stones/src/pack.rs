@@ -3,6 +3,7 @@
 //! The grains whose centres are inside a placed stone become its grains. Every random number comes from one stream, and stones are tried one after the
 //! other, so the result is a function of the inputs and the seed alone.
 
+mod crowd;
 mod report;
 
 pub use report::{ClassReport, Undone};
@@ -43,6 +44,8 @@ pub struct PackSettings {
     pub bounds: [Vec3; 2],
     /// Most tries for each class.
     pub tries: u64,
+    /// Rounds of moves in which room is made for a stone when the tries of its class have run out; 0: none is made.
+    pub rounds: u64,
     /// Fewest grains of a stone.
     pub least_grains: usize,
     /// Seed.
@@ -74,6 +77,17 @@ pub struct Packing {
     pub stone_mass: f64,
     /// Each class, in the order of the grading.
     pub classes: Vec<ClassReport>,
+}
+
+/// What was done for a class.
+#[derive(Debug, Clone, Copy, Default)]
+struct ClassRun {
+    tries: u64,
+    undone: Undone,
+    /// Stones for which room was made.
+    crowded: usize,
+    /// Whether its content is not reached.
+    missed: bool,
 }
 
 struct Packer<'a> {
@@ -126,7 +140,7 @@ pub fn pack(
     let largest = |c: &Class| c.stones.iter().map(|&k| packer.size_range(c, k).1).fold(0.0, f64::max);
     let mut order: Vec<(usize, f64)> = classes.iter().enumerate().map(|(k, c)| (k, largest(c))).collect();
     order.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-    let mut runs: Vec<(u64, Undone)> = vec![Default::default(); classes.len()];
+    let mut runs = vec![ClassRun::default(); classes.len()];
     for (k, _) in order {
         packer.fits(&classes[k])?;
         runs[k] = packer.class(k, &classes[k], &progress);
@@ -165,28 +179,46 @@ impl Packer<'_> {
         final_mass(self.soil_mass, self.volumes.iter().sum(), self.bulk, s.density, s.content)
     }
 
-    /// Tries stones of a class until its content is reached; the number of tries, and of those that were undone.
-    fn class(&mut self, index: usize, class: &Class, progress: &impl Fn(f64)) -> (u64, Undone) {
-        let (density, tolerance) = (self.settings.density, self.settings.tolerance);
+    /// Whether a class has its content.
+    fn is_reached(&self, index: usize, class: &Class) -> bool {
         let wanted = self.settings.content * class.share;
-        let mut undone = Undone::default();
-        for tries in 0..self.settings.tries {
-            let mass = self.mass();
-            if excess(self.volumes[index], density, mass, wanted) >= -tolerance {
-                return (tries, undone);
-            }
-            let stone = class.stones[(unit(&mut self.random) * class.stones.len() as f64) as usize];
-            let volume = self.volume(class, stone, mass * wanted / density - self.volumes[index]);
-            if excess(self.volumes[index] + volume, density, mass, wanted) > tolerance {
-                undone.too_heavy += 1;
+        excess(self.volumes[index], self.settings.density, self.mass(), wanted) >= -self.settings.tolerance
+    }
+
+    /// Share of the content that is reached.
+    fn done(&self) -> f64 {
+        let all = self.volumes.iter().sum::<f64>() * self.settings.density;
+        (all / (self.mass() * self.settings.content)).min(1.0)
+    }
+
+    /// A random stone of a class and its volume [m³]; `None` if it is too heavy for what is missing.
+    fn draw(&mut self, index: usize, class: &Class) -> Option<(usize, f64)> {
+        let (density, wanted, mass) =
+            (self.settings.density, self.settings.content * class.share, self.mass());
+        let stone = class.stones[(unit(&mut self.random) * class.stones.len() as f64) as usize];
+        let volume = self.volume(class, stone, mass * wanted / density - self.volumes[index]);
+        let above = excess(self.volumes[index] + volume, density, mass, wanted) > self.settings.tolerance;
+        (!above).then_some((stone, volume))
+    }
+
+    /// Tries stones of a class until its content is reached, and makes room for the others where that is asked for.
+    fn class(&mut self, index: usize, class: &Class, progress: &impl Fn(f64)) -> ClassRun {
+        let mut run = ClassRun::default();
+        while run.tries < self.settings.tries && !self.is_reached(index, class) {
+            run.tries += 1;
+            let Some((stone, volume)) = self.draw(index, class) else {
+                run.undone.too_heavy += 1;
                 continue;
-            }
-            if self.attempt(stone, index, volume, &mut undone) {
-                let all = self.volumes.iter().sum::<f64>() * density;
-                progress((all / (self.mass() * self.settings.content)).min(1.0));
+            };
+            if self.attempt(stone, index, volume, &mut run.undone) {
+                progress(self.done());
             }
         }
-        (self.settings.tries, undone)
+        if self.settings.rounds > 0 && !self.is_reached(index, class) {
+            run.crowded = self.crowd(index, class, &mut run.undone, progress);
+        }
+        run.missed = !self.is_reached(index, class);
+        run
     }
 
     /// The volume of the next stone [m³]: of a random sieve size of its class. The last ones fill what is missing, if that is a size of the class.
@@ -205,24 +237,11 @@ impl Packer<'_> {
     fn attempt(&mut self, stone: usize, class: usize, volume: f64, undone: &mut Undone) -> bool {
         let of = &self.library.stones[stone];
         let scale = (volume / of.stone.moments.volume).cbrt();
-        let orientation = random_orientation(&mut self.random);
-        let draw = [unit(&mut self.random), unit(&mut self.random), unit(&mut self.random)];
-        let (lo, hi) = of
-            .arms()
-            .map(|arm| orientation * (arm * scale))
-            .fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |(lo, hi), p| {
-                (lo.inf(&p), hi.sup(&p))
-            });
-        // Places of the centre at which the stone is in the box.
-        let (first, last) = (self.settings.bounds[0] - lo, self.settings.bounds[1] - hi);
-        if (0..3).any(|k| first[k] > last[k]) {
+        let Some(mut placed) = self.random_place(stone, class, scale) else {
             undone.too_large += 1;
             return false;
-        }
-        let centre = first + (last - first).component_mul(&Vec3::from(draw));
-        let mut placed = PlacedStone::new((stone, of), class, scale, orientation, centre);
-        let overlaps = |other: &PlacedStone| placed.overlaps(of, other, &self.library.stones[other.stone]);
-        if self.placed.iter().any(overlaps) {
+        };
+        if !self.is_free(&placed, usize::MAX) {
             undone.overlaps += 1;
             return false;
         }
@@ -235,14 +254,28 @@ impl Packer<'_> {
             undone.shared_grains += 1;
             return false;
         }
-        let cluster = self.placed.len() as u32 + 1;
-        for &grain in &placed.grains {
-            self.clusters[grain as usize] = cluster;
-            self.soil_mass -= self.soil.masses[grain as usize];
-        }
         self.volumes[class] += placed.volume(of);
         self.placed.push(placed);
+        self.take(self.placed.len() - 1);
         true
+    }
+
+    /// A stone with a random orientation at a random place in the box; `None` if it is larger than the box.
+    fn random_place(&mut self, stone: usize, class: usize, scale: f64) -> Option<PlacedStone> {
+        let of = &self.library.stones[stone];
+        let orientation = random_orientation(&mut self.random);
+        let draw = [unit(&mut self.random), unit(&mut self.random), unit(&mut self.random)];
+        let (lo, hi) = of
+            .arms()
+            .map(|arm| orientation * (arm * scale))
+            .fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |(lo, hi), p| {
+                (lo.inf(&p), hi.sup(&p))
+            });
+        // Places of the centre at which the stone is in the box.
+        let (first, last) = (self.settings.bounds[0] - lo, self.settings.bounds[1] - hi);
+        let fits = (0..3).all(|k| first[k] <= last[k]);
+        let centre = first + (last - first).component_mul(&Vec3::from(draw));
+        fits.then(|| PlacedStone::new((stone, of), class, scale, orientation, centre))
     }
 
     /// Grains whose centres are in a stone, ascending.
@@ -255,12 +288,12 @@ impl Packer<'_> {
         inside
     }
 
-    fn finish(self, classes: &[Class], runs: &[(u64, Undone)]) -> Packing {
+    fn finish(self, classes: &[Class], runs: &[ClassRun]) -> Packing {
         let (density, total) = (self.settings.density, self.volumes.iter().sum::<f64>());
         let stone_mass = total * density;
         let mass = self.soil_mass + stone_mass;
         let report = |k: usize| {
-            let (class, (tries, undone)) = (&classes[k], runs[k]);
+            let (class, run) = (&classes[k], runs[k]);
             let wanted = self.settings.content * class.share;
             let stones = self.placed.iter().filter(|p| p.class == k).count();
             let volume = self.volumes[k];
@@ -272,9 +305,10 @@ impl Packer<'_> {
                 excess: excess(volume, density, mass, wanted),
                 share_wanted: class.share,
                 share: if total > 0.0 { volume / total } else { 0.0 },
-                tries,
-                undone,
-                missed: (tries == self.settings.tries).then(|| missed(tries, &undone)),
+                tries: run.tries,
+                undone: run.undone,
+                crowded: run.crowded,
+                missed: run.missed.then(|| missed(run.tries, &run.undone)),
             }
         };
         let classes = (0..classes.len()).map(report).collect();

@@ -8,7 +8,8 @@ use stones::PackSettings;
 const EXAMPLES: &str = "The output has the columns of the soil, and cluster (0: soil; else the number of the stone), class and material (that of the soil; the last one is that of \
     the stones). A scene reads it with [[particles]] source = \"specimen.ply\", materials = [\"soil\", \"rock\"].\n\nExamples:\n\
     \x20 stone-pack soil.mcap stones --content 0.3 --stone-density 2650 -o specimen.ply\n\
-    \x20 stone-pack soil.mcap stones --content 0.3 --stone-density 2650 --grading grading.csv -o s.ply";
+    \x20 stone-pack soil.mcap stones --content 0.3 --stone-density 2650 --grading grading.csv -o s.ply\n\
+    \x20 stone-pack soil.mcap stones --content 0.6 --stone-density 2650 --crowd 300 -o s.ply";
 
 /// Place stones of real shape, without overlap, in settled soil
 #[derive(clap::Parser)]
@@ -40,6 +41,9 @@ pub struct Args {
     /// Most tries for each class
     #[arg(long, value_name = "N", default_value = "10000", value_parser = clap::value_parser!(u64).range(1..=10_000))]
     tries: u64,
+    /// When the tries of a class have run out, make room for its other stones: a stone begins small and grows, in at most so many rounds of small random moves of all near it
+    #[arg(long, value_name = "ROUNDS", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub crowd: Option<u64>,
     /// Fewest grains of a stone
     #[arg(long, value_name = "N", default_value = "2", value_parser = clap::value_parser!(u32).range(1..))]
     least_grains: u32,
@@ -107,6 +111,7 @@ impl Args {
             density: self.stone_density,
             bounds,
             tries: self.tries,
+            rounds: self.crowd.unwrap_or(0),
             least_grains: self.least_grains as usize,
             seed: self.seed.seed(),
         })

@@ -37,6 +37,9 @@ fn stone_pack(args: Args) -> anyhow::Result<Report> {
             Shown(missed.content_wanted)
         ));
     }
+    if args.crowd.is_some() && packing.classes.iter().all(|c| c.crowded == 0 && c.undone.no_room == 0) {
+        cli::warn("--crowd changed nothing: no class lacked room when its tries had run out");
+    }
     outputs::write(&args, &grains, &library, &packing)?;
     let grain_density = grain_density(&grains, &packing);
     if let Some(path) = &args.bodies {

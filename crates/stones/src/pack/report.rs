@@ -15,6 +15,8 @@ pub struct Undone {
     pub shared_grains: u64,
     /// It held fewer grains than asked for.
     pub few_grains: u64,
+    /// No room could be made for it.
+    pub no_room: u64,
 }
 
 /// What became of a class.
@@ -38,6 +40,8 @@ pub struct ClassReport {
     pub tries: u64,
     /// The others.
     pub undone: Undone,
+    /// Stones for which room was made when the tries had run out.
+    pub crowded: usize,
     /// Why the content is not reached; absent if it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub missed: Option<String>,
@@ -45,10 +49,14 @@ pub struct ClassReport {
 
 /// Why a content was not reached: the most frequent cause.
 pub(super) fn missed(tries: u64, undone: &Undone) -> String {
+    if undone.no_room > 0 {
+        return "no room could be made for the next stone: the box is full for stones of this size; lower the content, raise --crowd, or give smaller stones between the large ones"
+            .to_owned();
+    }
     let causes = [
         (
             undone.overlaps,
-            "overlapped an earlier stone: the box is full for stones of this size; lower the content, or give smaller stones",
+            "overlapped an earlier stone: the gaps are smaller than stones of this size; make room for them (--crowd 300), lower the content, or give smaller stones",
         ),
         (
             undone.too_heavy,

@@ -17,6 +17,7 @@ fn settings() -> PackSettings {
         density: 2000.0,
         bounds: [Vec3::zeros(), Vec3::repeat(0.2)],
         tries: 10_000,
+        rounds: 0,
         least_grains: 2,
         seed: 3,
     }
@@ -34,10 +35,9 @@ fn packed(settings: &PackSettings) -> Packing {
     pack(&library, &grading::read(GRADING, &library).unwrap(), &soil(), settings, |_| {}).unwrap()
 }
 
-#[test]
-fn content_and_shares_are_reached_and_no_grain_is_in_two_stones() {
-    let (library, soil, settings) = (library(), soil(), settings());
-    let found = packed(&settings);
+/// Masses, grains and places of a packing that has reached its content.
+fn check(found: &Packing, settings: &PackSettings) {
+    let (library, soil) = (library(), soil());
     assert!((found.content / settings.content - 1.0).abs() <= settings.tolerance, "{}", found.content);
     for class in &found.classes {
         assert!((class.share / class.share_wanted - 1.0).abs() < 0.02 && class.missed.is_none(), "{class:?}");
@@ -63,6 +63,28 @@ fn content_and_shares_are_reached_and_no_grain_is_in_two_stones() {
         let range = [(0.03, 0.05), (0.02, 0.03)][a.class];
         assert!(sieve >= range.0 * (1.0 - 1e-9) && sieve <= range.1 * (1.0 + 1e-9), "{sieve} {range:?}");
     }
+}
+
+#[test]
+fn content_and_shares_are_reached_and_no_grain_is_in_two_stones() {
+    let found = packed(&settings());
+    check(&found, &settings());
+    assert!(found.classes.iter().all(|class| class.crowded == 0));
+}
+
+#[test]
+fn room_is_made_where_random_places_are_all_taken() {
+    let full = PackSettings { content: 0.55, tries: 2000, ..settings() };
+    let without = packed(&full);
+    assert!(without.content < 0.5, "{}", without.content);
+    let crowded = PackSettings { rounds: 200, ..full };
+    let found = packed(&crowded);
+    check(&found, &crowded);
+    assert!(found.classes.iter().map(|class| class.crowded).sum::<usize>() > 10, "{:?}", found.classes);
+    // No room for as much as the box holds.
+    let most = packed(&PackSettings { content: 0.9, rounds: 5, ..full });
+    let words = most.classes.iter().find_map(|class| class.missed.clone()).expect("not reached");
+    assert!(words.contains("no room could be made") && most.content < 0.9, "{words}");
 }
 
 #[test]

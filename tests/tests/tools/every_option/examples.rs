@@ -116,7 +116,7 @@ pub const EXAMPLES: &[&str] = &[
     "stone-clump library/rock_1_1.ply --units m --error 20% --output clump.csv --quiet",
     "stone-clump library/rock_1_1.ply --spheres 5 --method tangent --distance 0.004 --seed 3 -o clump.ply",
     "stone-clump library/rock_1_1.ply --measures",
-    "stone-pack grains.csv library --content 0.2 --stone-density 2600 --soil-density 2600 --tolerance 0.1 --tries 500 --least-grains 2 --within box:0,0,0,0.1,0.1,0.1 --scale 1 --material stone --bonded --places places.csv --surfaces stones.ply --seed 3 -o specimen.ply --report r.json --threads 2 -q",
+    "stone-pack grains.csv library --content 0.2 --stone-density 2600 --soil-density 2600 --tolerance 0.1 --tries 500 --crowd 3 --least-grains 2 --within box:0,0,0,0.1,0.1,0.1 --scale 1 --material stone --bonded --places places.csv --surfaces stones.ply --seed 3 -o specimen.ply --report r.json --threads 2 -q",
     "stone-pack grains.csv library --content 20% --stone-density 2600 --soil-density 2600 --grading grading.csv --units m --rigid stones.toml --output soil.ply --quiet",
     "stone-pack run.mcap library --content 0.1 --stone-density 2600 --tries 5 --within box:0,0,0,0.1,0.1,0.1 -o of-run.ply",
     "lab-test crush stone.toml --set bond.0.damping=0.1 --strain 3% --speed 0.1 --seeds 2 --seed 3 --rows 30 --dir specimens --plot crush.svg --page crush.html --words crush.md -o crush.csv --report r.json --threads 2 -q",
