@@ -4,7 +4,7 @@ use crate::{
     exit::usage,
     part::{Keep, PartFile},
     signals, stdout,
-    target::{folder, target},
+    target::{folder, is_descriptor, open_as_it_is, target},
 };
 use anyhow::Context;
 use std::{
@@ -189,8 +189,8 @@ impl OutputStream {
         let target = target(path).with_context(failed)?;
         match fs::metadata(&target) {
             Ok(kind) if kind.is_dir() => anyhow::bail!("{name}: is a folder: name a file in it"),
-            Ok(kind) if !kind.is_file() => {
-                let file = File::options().write(true).open(&target).with_context(failed)?;
+            Ok(kind) if !kind.is_file() || is_descriptor(&target) => {
+                let file = open_as_it_is(&target).with_context(failed)?;
                 return Ok(OutputStream::new(Sink::Direct { file, waits: true }, name));
             }
             found => dangling(path, &target, found.ok()),

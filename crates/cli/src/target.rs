@@ -1,7 +1,9 @@
 //! The file that the name of an output stands for: a link stands for its target.
 
 use std::{
-    fs, io,
+    fs::{self, File},
+    io,
+    os::fd::AsFd,
     path::{Path, PathBuf},
 };
 
@@ -13,17 +15,33 @@ const LINKS: usize = 40;
 /// # Errors
 /// Links in a circle.
 pub(crate) fn target(path: &Path) -> io::Result<PathBuf> {
-    if let Ok(found) = fs::canonicalize(path) {
-        return Ok(found);
-    }
     let mut path = path.to_owned();
     for _ in 0..LINKS {
         match fs::read_link(&path) {
-            Ok(to) => path = folder(&path).join(to),
-            Err(_) => return Ok(path),
+            Ok(to) if !is_descriptor(&path) => path = folder(&path).join(to),
+            _ => return Ok(fs::canonicalize(&path).ok().filter(|_| !is_descriptor(&path)).unwrap_or(path)),
         }
     }
     Err(io::Error::other("its links lead in a circle"))
+}
+
+/// Whether a name stands for an open file of this process, such as /dev/stdout: it is written to as it is, because replacing it would leave what others
+/// write there without a name.
+pub(crate) fn is_descriptor(path: &Path) -> bool {
+    fs::canonicalize(folder(path)).is_ok_and(|folder| folder.starts_with("/proc") && folder.ends_with("fd"))
+}
+
+/// Opens a device, a pipe or an open file for writing. Stdout and stderr are shared with who opened them, also where they write.
+///
+/// # Errors
+/// Whatever the system says.
+pub(crate) fn open_as_it_is(path: &Path) -> io::Result<File> {
+    let number = path.file_name().and_then(|name| name.to_str()).filter(|_| is_descriptor(path));
+    match number {
+        Some("1") => Ok(io::stdout().as_fd().try_clone_to_owned()?.into()),
+        Some("2") => Ok(io::stderr().as_fd().try_clone_to_owned()?.into()),
+        _ => File::options().append(true).open(path),
+    }
 }
 
 /// The folder of a file.

@@ -89,6 +89,19 @@ fn two_outputs_have_two_names() {
     assert_eq!(done.code, 0, "a device may have both: {}", done.stderr);
 }
 
+/// /dev/stdout is written to as it is: a pipe, or a file to which a shell sends several programs.
+#[test]
+fn an_open_file_is_written_to_and_not_replaced() {
+    let folder = scene();
+    let f = folder.path();
+    let done = line(f, "dem-run s.toml -q -o run.mcap --report /dev/stdout");
+    assert!(done.code == 0 && done.stdout.starts_with(b"{"), "{}", done.stderr);
+    let both = "{ echo before; dem-run s.toml -q -o run.mcap --report /dev/stdout; echo after; } > all.txt";
+    assert_eq!(line(f, both).code, 0);
+    let all = fs::read_to_string(f.join("all.txt")).unwrap();
+    assert!(all.starts_with("before\n{") && all.ends_with("}\nafter\n"), "{all}");
+}
+
 #[test]
 fn files_of_shapes_and_other_options_are_inputs() {
     let folder = scene();
