@@ -1,12 +1,13 @@
-//! Height of a bed: the median height of its surface over the ground.
+//! Height and slope of a bed.
 //!
 //! The surface is that of the heap angle (see [`crate::repose`]): the highest grain over each point of a grid of a quarter of
-//! a mean diameter; cells without grains are left out. Grains in the air do not affect the median.
+//! a mean diameter; cells without grains are left out. The height is the median over the ground. The slope is that of a Theil–Sen line (see
+//! [`crate::statistics`]) through the medians of the surface in bins along a direction. Grains in the air affect neither.
 
 use crate::observer::OfFrame;
-use crate::repose::{Frame3, HeapSurface};
+use crate::repose::{Frame3, HeapSurface, check_fractions};
 use crate::sheet::{Chart, Head, Row, Summary};
-use crate::statistics::quantile;
+use crate::statistics::{median, quantile, theil_sen};
 use crate::{Frame, MeasureError, Run};
 use geom::Vec3;
 
@@ -57,6 +58,106 @@ impl OfFrame for BedHeight {
     }
 }
 
+/// How the slope of a bed is taken.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlopeOptions {
+    /// The side to which the angle counts as downhill.
+    pub side: Vec3,
+    /// Up; `None`: against gravity, or z.
+    pub up: Option<Vec3>,
+    /// The part of the length of the bed, towards the side, whose surface is fitted.
+    pub fractions: [f64; 2],
+    /// Width of the bins [m]; `None`: a mean diameter.
+    pub bin: Option<f64>,
+}
+
+/// Measures the angle of the surface of a bed in chosen frames.
+pub struct BedSlope {
+    options: SlopeOptions,
+    angles: Vec<f64>,
+    last: [f64; 4],
+}
+
+impl BedSlope {
+    /// With these options.
+    ///
+    /// # Errors
+    /// Fractions out of order.
+    pub fn new(options: SlopeOptions) -> Result<BedSlope, MeasureError> {
+        check_fractions(options.fractions)?;
+        Ok(BedSlope { options, angles: Vec::new(), last: [f64::NAN; 4] })
+    }
+
+    /// Place along the side and height [m] of each bin that is fitted.
+    fn profile(&self, surface: &HeapSurface, bin: f64) -> Vec<[f64; 2]> {
+        let along = || surface.points.iter().map(|p| p[0]);
+        let (low, high) = along().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let [from, to] = self.options.fractions.map(|share| low + share * (high - low));
+        let mut bins: Vec<(Vec<f64>, Vec<f64>)> = vec![Default::default(); ((to - from) / bin) as usize + 1];
+        for p in surface.points.iter().filter(|p| p[0] >= from && p[0] <= to) {
+            let bin = &mut bins[((p[0] - from) / bin) as usize];
+            bin.0.push(p[0]);
+            bin.1.push(p[2]);
+        }
+        let filled = bins.into_iter().filter(|bin| !bin.0.is_empty());
+        filled.map(|(mut at, mut heights)| [median(&mut at), median(&mut heights)]).collect()
+    }
+}
+
+impl OfFrame for BedSlope {
+    fn heads(&self) -> Vec<Head> {
+        Head::list(&[("time", "s"), ("angle", "deg"), ("angle_low", "deg"), ("angle_high", "deg")])
+    }
+
+    fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
+        if frame.is_empty() {
+            return Err(MeasureError::NoGrains { time: frame.time });
+        }
+        let up = self.options.up.or(run.up).unwrap_or(Vec3::z());
+        let axes = Frame3::towards(up, self.options.side).ok_or(MeasureError::Setting {
+            what: "side along up",
+            value: up.normalize().dot(&self.options.side),
+            unit: "",
+            cure: "give a side of the bed, not above or below it (--bed-slope and --up)",
+        })?;
+        let surface = HeapSurface::new(frame, &axes, None);
+        let bin = self.options.bin.unwrap_or(frame.mean_diameter());
+        if bin < surface.step {
+            let cure = "give at least a quarter of a mean diameter";
+            return Err(MeasureError::Setting { what: "bin", value: bin, unit: "m", cure });
+        }
+        let points = self.profile(&surface, bin);
+        let few = MeasureError::FewGrains { what: "a slope", most: points.len(), wanted: 3 };
+        let line = theil_sen(&points).filter(|_| points.len() >= 3).ok_or(few)?;
+        let angle = |slope: f64| libm::atan(-slope).to_degrees();
+        let [steep, shallow] = line.interval;
+        self.last = [frame.time, angle(line.slope), angle(shallow), angle(steep)];
+        self.angles.push(self.last[1]);
+        Ok(vec![self.last.to_vec()])
+    }
+
+    fn end(&mut self) -> Result<(Vec<Row>, Summary), MeasureError> {
+        let [time, angle, low, high] = self.last;
+        let summary = match self.angles.len() {
+            1 => Summary::default().with("angle", "deg", angle).with("angle_low", "deg", low).with(
+                "angle_high",
+                "deg",
+                high,
+            ),
+            n => Summary::default()
+                .with("mean_angle", "deg", self.angles.iter().sum::<f64>() / n as f64)
+                .with("smallest_angle", "deg", self.angles.iter().copied().fold(f64::INFINITY, f64::min))
+                .with("largest_angle", "deg", self.angles.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+                .with("angle", "deg", angle),
+        };
+        Ok((Vec::new(), summary.with("time", "s", time)))
+    }
+
+    fn chart(&self, rows: &[Row]) -> Chart {
+        Chart::new("Slope of the bed").columns(("time [s]", 0), "angle [deg]", &[("angle", 1)], rows)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -81,5 +182,33 @@ mod tests {
         assert!((rows[0][1] / right - 1.0).abs() < 0.01, "{} is not {right}", rows[0][1]);
         let empty = Frame::default();
         assert!(matches!(bed.measure(&Run::default(), &empty), Err(MeasureError::NoGrains { .. })));
+    }
+
+    /// A layer of balls on a plane of 20° that falls towards x, with every tenth ball lifted off it: the angle is that of the plane.
+    #[test]
+    fn the_slope_of_a_layer_is_that_of_the_plane_below_it() {
+        let r = 0.005;
+        let fall = 20f64.to_radians().tan();
+        let position = |k: i32| {
+            let (x, y) = (0.0089 * f64::from(k % 60), 0.0091 * f64::from(k / 60));
+            let lifted = if k % 10 == 3 { 0.05 } else { 0.0 };
+            Vec3::new(x, y, 1.0 - fall * x + lifted)
+        };
+        let frame = Frame {
+            id: (0..1800).collect(),
+            position: (0..1800).map(position).collect(),
+            radius: vec![r; 1800],
+            ..Frame::default()
+        };
+        let angle = |side: Vec3| {
+            let options = SlopeOptions { side, up: None, fractions: [0.2, 0.8], bin: None };
+            BedSlope::new(options)?.measure(&Run::default(), &frame).map(|rows| rows[0][1])
+        };
+        let [down, up, across] = [Vec3::x(), -Vec3::x(), Vec3::y()].map(|side| angle(side).unwrap());
+        assert!(
+            (down - 20.0).abs() < 0.3 && (up + 20.0).abs() < 0.3 && across.abs() < 0.3,
+            "{down} {up} {across}"
+        );
+        assert!(matches!(angle(Vec3::z()), Err(MeasureError::Setting { .. })));
     }
 }

@@ -69,18 +69,24 @@ impl HeapOptions {
     /// Fewer than two sectors, fractions out of order, a bin not above zero, a wall that is not upright.
     pub fn check(&self) -> Result<(), MeasureError> {
         let wrong = |what, value, unit, cure| Err(MeasureError::Setting { what, value, unit, cure });
-        let [low, high] = self.fractions;
         if !(2..=MOST_SECTORS).contains(&self.sectors) {
             return wrong("sectors", self.sectors as f64, "", "give 2 to 1000: the interval is over them");
         }
-        if !(0.0 <= low && low < high && high <= 1.0) {
-            return wrong("lower fraction", low, "", "give two numbers from 0 to 1, the lower first");
-        }
+        check_fractions(self.fractions)?;
         if let Some(bin) = self.bin.filter(|b| !(*b > 0.0 && b.is_finite())) {
             return wrong("bin", bin, "m", "give a length above 0");
         }
         Ok(())
     }
+}
+
+/// Refuses fractions that are no part of a length.
+pub(crate) fn check_fractions([low, high]: [f64; 2]) -> Result<(), MeasureError> {
+    if 0.0 <= low && low < high && high <= 1.0 {
+        return Ok(());
+    }
+    let cure = "give two numbers from 0 to 1, the lower first";
+    Err(MeasureError::Setting { what: "lower fraction", value: low, unit: "", cure })
 }
 
 /// One sector or lane.
@@ -126,21 +132,16 @@ pub fn heap_angle(frame: &Frame, options: &HeapOptions, up: Option<Vec3>) -> Res
     if frame.is_empty() {
         return Err(MeasureError::NoGrains { time: frame.time });
     }
-    let mut axes = Frame3::new(options.up.or(up).unwrap_or(Vec3::z()));
-    if let Some(wall) = options.wall {
-        let level = wall - axes.up * axes.up.dot(&wall);
-        if level.norm() < 0.5 * wall.norm() || level.norm() == 0.0 {
-            let cure = "give a wall beside the heap, not above or below it (--side and --up)";
-            return Err(MeasureError::Setting {
-                what: "wall direction along up",
-                value: axes.up.dot(&wall),
-                unit: "",
-                cure,
-            });
-        }
-        axes.u = -level.normalize();
-        axes.v = axes.up.cross(&axes.u);
-    }
+    let up = options.up.or(up).unwrap_or(Vec3::z());
+    let axes = match options.wall {
+        None => Frame3::new(up),
+        Some(wall) => Frame3::towards(up, -wall).ok_or(MeasureError::Setting {
+            what: "wall direction along up",
+            value: up.normalize().dot(&wall),
+            unit: "",
+            cure: "give a wall beside the heap, not above or below it (--side and --up)",
+        })?,
+    };
     let overhang = overhang::overhang(frame, &axes);
     let surface = HeapSurface::new(frame, &axes, options.ground);
     let bin = options.bin.unwrap_or(frame.mean_diameter());

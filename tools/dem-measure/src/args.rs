@@ -97,6 +97,9 @@ pub struct Args {
     /// Height of a bed: the median of its surface
     #[arg(long, group = "measure")]
     pub bed_height: bool,
+    /// Angle of the surface of a bed, downhill to SIDE: x- x+ y- y+ z- z+
+    #[arg(long, group = "measure", value_name = "SIDE", value_parser = side, allow_hyphen_values = true)]
+    pub bed_slope: Option<Vec3>,
 
     /// The last frame at or before S [s]
     #[arg(long, value_name = "S", value_parser = cli::seconds, help_heading = "Which frames")]
@@ -114,16 +117,16 @@ pub struct Args {
     #[arg(long, value_name = "S", value_parser = cli::seconds, conflicts_with_all = ["time", "last"], help_heading = "Which frames")]
     pub until: Option<f64>,
 
-    /// Up (default: against the scene's gravity, else z) [repose, segregation, bed-height]
+    /// Up (default: against the scene's gravity, else z) [repose, segregation, bed-height, bed-slope]
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true, help_heading = "How")]
     pub up: Option<Vec3>,
     /// Sectors around the axis, or lanes from the wall (default 8) [repose]
     #[arg(long, value_name = "N", help_heading = "How")]
     pub sectors: Option<usize>,
-    /// Fractions of the heap's height between which the flank is fitted (default 0.2,0.8) [repose]
+    /// Fractions of the heap's height, or of the bed's length, between which a line is fitted (default 0.2,0.8) [repose, bed-slope]
     #[arg(long, value_name = "LO,HI", value_parser = pair, help_heading = "How")]
     pub fractions: Option<[f64; 2]>,
-    /// Width of the bins of the heap's profile [m] (default: a mean diameter) [repose]
+    /// Width of the bins of the profile [m] (default: a mean diameter) [repose, bed-slope]
     #[arg(long, value_name = "M", value_parser = positive, help_heading = "How")]
     pub bin: Option<f64>,
     /// Height of the ground [m] (default: that of the lowest grains) [repose, bed-height]
@@ -201,10 +204,10 @@ impl Args {
     /// Refuses options of other measures than the one that is asked for.
     pub fn check(&self, measure: &str) -> anyhow::Result<()> {
         let options: [(&str, bool, &[&str]); 18] = [
-            ("--up", self.up.is_some(), &["--repose", "--segregation", "--bed-height"]),
+            ("--up", self.up.is_some(), &["--repose", "--segregation", "--bed-height", "--bed-slope"]),
             ("--sectors", self.sectors.is_some(), &["--repose"]),
-            ("--fractions", self.fractions.is_some(), &["--repose"]),
-            ("--bin", self.bin.is_some(), &["--repose"]),
+            ("--fractions", self.fractions.is_some(), &["--repose", "--bed-slope"]),
+            ("--bin", self.bin.is_some(), &["--repose", "--bed-slope"]),
             ("--ground", self.ground.is_some(), &["--repose", "--bed-height"]),
             ("--side", self.side.is_some(), &["--repose"]),
             ("--within", self.within.is_some(), &["--repose", "--flow", "--profile", "--strain"]),

@@ -4,7 +4,7 @@ use crate::args::{Args, Bins, GivenShape};
 use anyhow::{Context, anyhow};
 use cli::usage;
 use geom::{Vec3, shape::Solid};
-use measure::bed::BedHeight;
+use measure::bed::{BedHeight, BedSlope, SlopeOptions};
 use measure::bonds::{BondNumbers, CrackList, FragmentList, Grading};
 use measure::coordination::ContactNumbers;
 use measure::domain::Domain;
@@ -87,6 +87,9 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
         }
         (Args { residence: Some(given), .. }, _) => Box::new(Residence::new(given.shape.clone(), between)),
         (_, "--impact") => Box::new(Impacts::new(between)),
+        (Args { bed_slope: Some(side), .. }, _) => {
+            Box::new(PerFrame::new(BedSlope::new(slope(args, *side)).context(name)?, series))
+        }
         (_, "--bed-height") => Box::new(PerFrame::new(BedHeight::new(args.up, args.ground), single)),
         _ => Box::new(ContactNumbers::new(series)),
     };
@@ -118,6 +121,7 @@ fn name(args: &Args) -> &'static str {
         ("--track", args.track.is_some()),
         ("--impact", args.impact),
         ("--bed-height", args.bed_height),
+        ("--bed-slope", args.bed_slope.is_some()),
     ];
     given.iter().find(|(_, given)| *given).map_or("--contacts", |(name, _)| name)
 }
@@ -150,6 +154,11 @@ fn heap(args: &Args) -> HeapOptions {
         ground: args.ground,
         without_falling: args.within.is_some(),
     }
+}
+
+fn slope(args: &Args, side: Vec3) -> SlopeOptions {
+    let fractions = args.fractions.unwrap_or(HeapOptions::default().fractions);
+    SlopeOptions { side, up: args.up, fractions, bin: args.bin }
 }
 
 fn grid(args: &Args) -> anyhow::Result<ProfileOptions> {

@@ -27,6 +27,14 @@ impl Frame3 {
         let u = (towards - up * up.dot(&towards)).normalize();
         Frame3 { u, v: up.cross(&u), up }
     }
+
+    /// Directions with the given `up`, the first one towards a side; `None` if that is more upright than level.
+    pub fn towards(up: Vec3, side: Vec3) -> Option<Frame3> {
+        let up = up.normalize();
+        let level = side - up * up.dot(&side);
+        let u = level.try_normalize(0.5 * side.norm())?;
+        Some(Frame3 { u, v: up.cross(&u), up })
+    }
 }
 
 /// Heights over a grid.
