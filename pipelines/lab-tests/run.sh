@@ -16,9 +16,13 @@ run triaxial triaxial "$here/sand.toml" --grains "$grains" --stress 25000,100000
 run triaxial-periodic triaxial-periodic "$here/sand.toml" --set "gravity=[0,0,0]" --grains "$grains" --stress 25000,100000
 run oedometer oedometer "$here/sand.toml" --grains "$grains"
 run uniaxial uniaxial "$here/rock.toml" --grains "$grains"
-run repose repose "$here/sand.toml" --grains "$grains" --set material.0.young=2e6
+for test in repose heap drum; do
+    run $test $test "$here/sand.toml" --grains "$grains" --set material.0.young=2e6
+done
 awk -v seed=1 -v diameter=0.007 -v grain=0.001 -v missing=0.15 -f "$here/../stones/stone.awk" > "$out/stone.csv" 2> "$out/stone.words"
 seeds=${STONES:-40}
 run crush crush "$here/stone.toml" --set "particles.0.source=$(cd "$out" && pwd)/stone.csv"
 # Pictures of the first specimens.
 dem-view "$out/direct-shear/stress=100000,seed=0/test.mcap" --size 1200x675 -q -o "$docs/lab-direct-shear.png"
+dem-view "$out/heap/seed=0/test.mcap" --size 800x600 -q -o "$docs/lab-heap.png"
+dem-view "$out/drum/seed=0/test.mcap" --camera front --size 800x600 -q -o "$docs/lab-drum.png"

@@ -34,6 +34,13 @@ impl Composition {
         self.document.remove(section);
     }
 
+    /// Gives a whole section another name.
+    pub(crate) fn rename(&mut self, section: &str, name: &str) {
+        if let Some(item) = self.document.remove(section) {
+            self.document.insert(name, item);
+        }
+    }
+
     /// The entries of a list of tables.
     pub(crate) fn entries(&mut self, list: &str) -> impl Iterator<Item = &mut Table> {
         let list = self.document.get_mut(list).and_then(Item::as_array_of_tables_mut);

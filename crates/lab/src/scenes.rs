@@ -1,6 +1,6 @@
 //! The scenes of a specimen: the sample, what the request changes, and what the test adds.
 
-use crate::compose::{Composition, number};
+use crate::compose::Composition;
 use crate::error::Result;
 use crate::lab::Lab;
 use crate::recipes::{Context, Part, Prepared};
@@ -40,7 +40,7 @@ impl Lab {
 
     pub(crate) fn compose_preparation(&self, of: &Context, part: &Part, mut scene: Composition) -> String {
         if let Some(mass) = self.specimen.mass {
-            scene.set("fill.0", "shape", self.space());
+            scene.set("fill.0", "shape", self.recipe.space(&self.specimen));
             scene.set("fill.0", "mass", mass);
             scene.set("fill.0", "seed", of.loading.seed as i64);
         }
@@ -48,19 +48,6 @@ impl Lab {
             scene.entries("contact").for_each(|contact| walls::set_friction(contact, friction));
         }
         self.finish(of, part, scene)
-    }
-
-    /// The space that is filled, as a shape.
-    fn space(&self) -> String {
-        let (low, high) = (self.specimen.low, self.specimen.high);
-        if self.recipe.proportions().1 == 1.0 {
-            let [a, b, c] = [low.x, low.y, low.z].map(number);
-            let [x, y, z] = [high.x, high.y, high.z].map(number);
-            return format!("box:{a},{b},{c},{x},{y},{z}");
-        }
-        let [x, y] = [0.5 * (low.x + high.x), 0.5 * (low.y + high.y)].map(number);
-        let [c, z, radius] = [low.z, high.z, 0.5 * (high.x - low.x)].map(number);
-        format!("cylinder:{x},{y},{c},{x},{y},{z},{radius}")
     }
 
     pub(crate) fn compose_test(
@@ -75,6 +62,17 @@ impl Lab {
                 ["units", "scale"].iter().for_each(|key| drop(particles.remove(key)));
                 particles.insert("source", value(grains));
             }
+        } else if let Some(pour) = &part.pour {
+            scene.rename("fill", "insert");
+            scene.set("insert.0", "shape", pour.shape.clone());
+            scene.set(
+                "insert.0",
+                "velocity",
+                [0.0, 0.0, -pour.speed].into_iter().collect::<toml_edit::Value>(),
+            );
+            scene.set("insert.0", "rate", pour.rate);
+            scene.set("insert.0", "mass", self.specimen.mass(&self.sample.grains));
+            scene.set("insert.0", "seed", of.loading.seed as i64);
         } else if prepared {
             scene.remove("fill");
             scene.remove("particles");

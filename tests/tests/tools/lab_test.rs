@@ -225,6 +225,31 @@ fn rigid_stones_are_prepared_with_the_grains_around_them() {
     );
 }
 
+/// Rough grains stand steeper than smooth ones, poured or turned; both ways make an angle between those of water and of a wall.
+#[test]
+fn a_poured_heap_and_a_drum_tell_rough_grains_from_smooth_ones() {
+    let lab = lab();
+    let path = lab.path();
+    let angle = |test: &str, friction: &str| {
+        let friction = format!("contact.0.sliding_friction={friction}");
+        let words = ["sand.toml", "--grains", "300", "--set", &friction, "--seed", "2", "--rows", "60"];
+        succeed(
+            path,
+            "lab-test",
+            &[&[test][..], &words, &["--report", "r.json", "-q", "-o", "c.csv"]].concat(),
+        );
+        figure(&json(path, "r.json"), 0, "angle")
+    };
+    for test in ["heap", "drum"] {
+        let [smooth, rough] = ["0.05", "0.8"].map(|friction| angle(test, friction));
+        assert!(smooth > 0.0 && rough < 60.0 && rough > smooth + 5.0, "{test}: {smooth} {rough}");
+    }
+    let drum = columns(path, "c.csv");
+    assert!(
+        drum["angle"][0].abs() < 8.0 && drum["turn"].last().is_some_and(|turn| (turn - 0.3).abs() < 0.01)
+    );
+}
+
 #[test]
 fn what_a_test_cannot_use_is_refused() {
     let lab = lab();
@@ -243,6 +268,11 @@ fn what_a_test_cannot_use_is_refused() {
         (&["crush", "sand.toml"], "has no [[bond]]"),
         (&["repose", "rock.toml"], "has [[particles]]"),
         (&["repose", "sand.toml", "--stress", "1"], "--stress has no effect on repose"),
+        (&["heap", "rock.toml"], "has [[particles]]"),
+        (&["heap", "sand.toml", "--rest", "0.1"], "--rest has no effect on heap"),
+        (&["heap", "sand.toml", "--print-preparation"], "heap prepares nothing"),
+        (&["drum", "sand.toml", "--set", "gravity=[0,0,0]"], "has no gravity"),
+        (&["drum", "sand.toml", "--inertial", "0.1"], "--inertial has no effect on drum"),
         (&["oedometer", "sand.toml", "--stress", "1"], "at least two stresses"),
         (&["oedometer", "sand.toml", "--strain", "0.1"], "--strain has no effect"),
         (&["direct-shear", "sand.toml", "--grains", "60"], "give a larger --size or more --grains"),

@@ -39,19 +39,19 @@ pub struct Args {
     /// Grains of each specimen, about [default: 2000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(50..=10_000_000))]
     pub grains: Option<u64>,
-    /// End of the test: strain, or displacement over length, such as 0.15 or 15%
+    /// End of the test: strain, displacement over length, or turns of the drum, such as 0.15 or 15%
     #[arg(long, value_name = "SHARE", value_parser = geom::number::share)]
     pub strain: Option<f64>,
     /// Inertial number that sets the speed of the test [default: 0.001]
     #[arg(long, value_name = "I", value_parser = geom::number::positive, conflicts_with = "speed")]
     pub inertial: Option<f64>,
-    /// Speed of the wall that drives the test [m/s]
+    /// Speed of the wall that drives the test, or of the stream of a heap [m/s]
     #[arg(long, value_name = "M/S", value_parser = geom::number::positive)]
     pub speed: Option<f64>,
     /// Sliding friction of the grains while the specimen is prepared: 0 makes it dense [default: that of the sample]
     #[arg(long, value_name = "MU", value_parser = geom::number::not_negative)]
     pub friction: Option<f64>,
-    /// Mean unbalanced over mean contact force at which a specimen counts as at rest [default: 0.0001; repose: 0.01]
+    /// Mean unbalanced over mean contact force at which a specimen counts as at rest [default: 0.0001; repose and drum: 0.01]
     #[arg(long, value_name = "SHARE", value_parser = geom::number::share)]
     pub rest: Option<f64>,
     /// Rows of each curve
@@ -97,6 +97,10 @@ pub enum Test {
     Oedometer,
     /// A cylinder of grains that is lifted off
     Repose,
+    /// Grains that are poured onto a round plate
+    Heap,
+    /// Grains in a drum that turns
+    Drum,
     /// A single stone of bonded grains between two plates
     Crush,
 }

@@ -76,7 +76,7 @@ fn print_scene(args: &Args, toml: &str, lab: &Lab) -> anyhow::Result<Report> {
     let Some(scene) = lab.scene(which).map_err(refused)? else {
         let test = lab.recipe().name();
         return Err(cli::usage(format!(
-            "--print-preparation: {test} takes these grains as they are: leave it out"
+            "--print-preparation: {test} prepares nothing with these grains: leave it out"
         )));
     };
     let other = lay_out(args, toml, &[args.seed.seed().wrapping_add(1)])?;

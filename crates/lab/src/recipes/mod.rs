@@ -5,8 +5,11 @@
 mod boxes;
 mod crush;
 mod direct_shear;
+mod drum;
+mod heap;
 mod oedometer;
 mod repose;
+mod text;
 mod triaxial;
 mod triaxial_periodic;
 mod uniaxial;
@@ -19,15 +22,18 @@ use crate::sample::Sample;
 use crate::series::{Curve, Series, smooth};
 use geom::Vec3;
 use std::collections::BTreeMap;
+use text::{cylinder, damping, output, plane, pressing, rectangle, servo, translate, triangle, wall};
 
 /// All tests.
-pub const ALL: [&dyn Recipe; 7] = [
+pub const ALL: [&dyn Recipe; 9] = [
     &direct_shear::DirectShear,
     &uniaxial::Uniaxial,
     &triaxial::Triaxial,
     &triaxial_periodic::TriaxialPeriodic,
     &oedometer::Oedometer,
     &repose::Repose,
+    &heap::Heap,
+    &drum::Drum,
     &crush::Crush,
 ];
 
@@ -70,6 +76,19 @@ pub struct Part {
     pub bonds: bool,
     /// Another source of the grains than the sample's, or the prepared ones.
     pub grains: Option<String>,
+    /// How the grains are poured in, where they are not there at the start.
+    pub pour: Option<Pour>,
+}
+
+/// Grains that are poured in during a test.
+#[derive(Debug, Clone)]
+pub struct Pour {
+    /// Where from, as a shape.
+    pub shape: String,
+    /// Downward speed [m/s].
+    pub speed: f64,
+    /// Mass rate [kg/s].
+    pub rate: f64,
 }
 
 /// What is known when the preparation has ended.
@@ -115,6 +134,13 @@ pub trait Recipe: Sync {
 
     /// Lengths of the specimen over each other, and the share of the box that it fills.
     fn proportions(&self) -> ([f64; 3], f64);
+
+    /// The space that is filled, as a shape: the box of the specimen.
+    fn space(&self, specimen: &Specimen) -> String {
+        let [a, b, c] = [specimen.low.x, specimen.low.y, specimen.low.z].map(number);
+        let [x, y, z] = [specimen.high.x, specimen.high.y, specimen.high.z].map(number);
+        format!("box:{a},{b},{c},{x},{y},{z}")
+    }
 
     /// Whether the preparation presses the loose grains together from all sides, not from above.
     fn is_pressed_all_round(&self) -> bool {
@@ -199,55 +225,39 @@ pub const ROWS: u64 = 200;
 /// Share of the end of a curve that is its residual [–].
 const RESIDUAL: f64 = 0.2;
 
-/// A wall as text.
-fn wall(name: &str, shape: &str, material: &str, more: &str) -> String {
-    format!("[[wall]]\nname = \"{name}\"\n{shape}\nmaterial = \"{material}\"\n{more}\n")
+/// Refuses samples whose grains cannot fall into a heap or a drum.
+fn falls(test: &str, sample: &Sample, request: &Request) -> Result<()> {
+    let speed = "grains fall at their own speed (--speed is that of the wall or the stream)";
+    unused(request.inertial.is_some(), "--inertial", test, speed)?;
+    let wrong =
+        |what: &str, cure: String| LabError::Sample { file: sample.name.clone(), what: what.into(), cure };
+    if sample.is_packed() {
+        return Err(wrong("has [[particles]]", format!("{test} pours its own grains: give a [[fill]]")));
+    }
+    if sample.grains.gravity == 0.0 {
+        return Err(wrong("has no gravity", "grains fall only with it: give gravity = [0, 0, -9.81]".into()));
+    }
+    Ok(())
 }
 
-/// The shape of a wall that is a plane: point and normal.
-fn plane(point: Vec3, normal: [i8; 3]) -> String {
-    let [x, y, z] = [point.x, point.y, point.z].map(number);
-    let [a, b, c] = normal;
-    format!("plane = \"{x},{y},{z},{a},{b},{c}\"")
+/// Angle of a heap by sectors, as a curve.
+fn sectors(tables: &Tables) -> Result<Curve> {
+    let angles = tables.column("repose", "angle")?;
+    Ok(Curve::default()
+        .with("sector", "", (0..angles.len()).map(|k| k as f64).collect())
+        .with("angle", "deg", angles)
+        .with("angle_low", "deg", tables.column("repose", "angle_low")?)
+        .with("angle_high", "deg", tables.column("repose", "angle_high")?))
 }
 
-/// What every run writes.
-fn output(until: f64, rows: u64) -> String {
-    let every = number(until / rows as f64);
-    format!("[output]\nevery = {every}\nwall_forces = true\nprecision = \"f64\"\n\n")
-}
-
-/// The servo of a wall that presses along a direction.
-fn servo(direction: [i8; 3], stress: &str, area: &str, limit: f64) -> String {
-    let [x, y, z] = direction;
-    format!("servo = {{ direction = [{x}, {y}, {z}], {stress}, {area}, speed_limit = {} }}\n", number(limit))
-}
-
-/// The servo of a lid that presses down with a stress [Pa] on an area [m²].
-fn pressing(stress: f64, area: f64, limit: f64) -> String {
-    let [stress, area] = [stress, area].map(number);
-    servo([0, 0, -1], &format!("stress = {stress}"), &format!("area = {area}"), limit)
-}
-
-/// A motion at a constant velocity that begins smoothly.
-fn translate(velocity: Vec3, ramp: f64) -> String {
-    let [x, y, z] = [velocity.x, velocity.y, velocity.z].map(number);
-    format!("motion = {{ translate = [{x}, {y}, {z}], ramp = {} }}\n", number(ramp))
-}
-
-/// Triangles of four corners, a line each.
-fn rectangle(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> String {
-    let line = |corners: [[f64; 3]; 3]| {
-        let words: Vec<String> = corners.iter().flatten().map(|x| number(*x)).collect();
-        words.join(" ") + "\n"
-    };
-    line([a, b, c]) + &line([a, c, d])
-}
-
-/// Local damping for the preparation: it stops the specimen as a whole, too, which hardly has unbalanced forces. Clumps and samples with damping of
-/// their own get none.
-fn damping(sample: &Sample) -> &'static str {
-    if sample.has("local_damping") { "" } else { "[local_damping]\nfactor = 0.7\n\n" }
+/// What the angles of the sectors come to.
+fn of_sectors(curve: &Curve) -> Vec<Value> {
+    let angles: Vec<f64> = curve.column("angle").iter().copied().filter(|a| !a.is_nan()).collect();
+    let mean = measure::statistics::Mean::of(&angles);
+    vec![
+        Value { name: "angle", unit: "deg", value: mean.mean },
+        Value { name: "interval_over_sectors", unit: "deg", value: mean.interval },
+    ]
 }
 
 /// Forces on one wall, and how far it has moved.

@@ -45,31 +45,18 @@ impl Recipe for Repose {
         ([1.0, 1.0, 1.5], PI / 4.0)
     }
 
+    fn space(&self, specimen: &Specimen) -> String {
+        cylinder(specimen)
+    }
+
     fn rest(&self) -> f64 {
         // The grains will move again.
         1e-2
     }
 
     fn check(&self, sample: &Sample, request: &Request) -> Result<()> {
-        unused(
-            request.inertial.is_some(),
-            "--inertial",
-            "repose",
-            "grains fall at their own speed (use --speed for lifting)",
-        )?;
-        unused(request.strain.is_some(), "--strain", "repose", "the heap ends the test")?;
-        let wrong = |what: &str, cure: &str| LabError::Sample {
-            file: sample.name.clone(),
-            what: what.into(),
-            cure: cure.into(),
-        };
-        if sample.is_packed() {
-            return Err(wrong("has [[particles]]", "repose pours its own grains: give a [[fill]]"));
-        }
-        if sample.grains.gravity == 0.0 {
-            return Err(wrong("has no gravity", "a heap needs gravity = [0, 0, -9.81]"));
-        }
-        Ok(())
+        unused(request.strain.is_some(), "--strain", self.name(), "the heap ends the test")?;
+        falls(self.name(), sample, request)
     }
 
     fn preparation(&self, of: &Context) -> Result<Option<Part>> {
@@ -106,21 +93,11 @@ impl Recipe for Repose {
     }
 
     fn curve(&self, _: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
-        let angles = tables.column("repose", "angle")?;
-        Ok(Curve::default()
-            .with("sector", "", (0..angles.len()).map(|k| k as f64).collect())
-            .with("angle", "deg", angles)
-            .with("angle_low", "deg", tables.column("repose", "angle_low")?)
-            .with("angle_high", "deg", tables.column("repose", "angle_high")?))
+        sectors(tables)
     }
 
     fn values(&self, _: &Context, curve: &Curve) -> Vec<Value> {
-        let angles: Vec<f64> = curve.column("angle").iter().copied().filter(|a| !a.is_nan()).collect();
-        let mean = measure::statistics::Mean::of(&angles);
-        vec![
-            Value { name: "angle", unit: "deg", value: mean.mean },
-            Value { name: "interval_over_sectors", unit: "deg", value: mean.interval },
-        ]
+        of_sectors(curve)
     }
 
     fn axes(&self) -> (&'static str, &'static [&'static str]) {

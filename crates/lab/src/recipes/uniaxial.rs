@@ -70,6 +70,10 @@ impl Recipe for Uniaxial {
         ([1.0, 1.0, 2.0], PI / 4.0)
     }
 
+    fn space(&self, specimen: &Specimen) -> String {
+        cylinder(specimen)
+    }
+
     fn friction(&self) -> Option<f64> {
         Some(0.0)
     }

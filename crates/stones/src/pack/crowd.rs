@@ -68,7 +68,8 @@ impl Packer<'_> {
         };
         let mut moving: Vec<usize> = (0..new).filter(|k| close(&self.placed[*k])).collect();
         moving.push(new);
-        let before: Vec<PlacedStone> = moving[..moving.len() - 1].iter().map(|k| self.placed[*k].clone()).collect();
+        let before: Vec<PlacedStone> =
+            moving[..moving.len() - 1].iter().map(|k| self.placed[*k].clone()).collect();
         self.placed.push(seed);
         let fits = self.grow(&moving, full, share) && self.claim(&moving);
         if !fits {
