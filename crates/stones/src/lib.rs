@@ -7,6 +7,7 @@
 //! crossing    whether meshes overlap: exact; whether a mesh crosses itself
 //! hull        the convex hull: exact
 //! shape       sieve size, elongation, flatness, convexity, sphericity
+//! roundness   how blunt its corners are
 //! samples     points inside a stone and on its surface
 //! clump       spheres inside a stone: by inner distance, or tangent to the surface; how well they fit
 //! library     a folder of stones: names, classes, sieve sizes
@@ -29,6 +30,7 @@ pub mod library;
 pub mod pack;
 mod placed;
 mod random;
+mod roundness;
 mod samples;
 pub mod shape;
 mod sphere;

@@ -7,6 +7,7 @@
 //! elongation    I/L,  flatness S/I                 Zingg (1935), Schweiz. Mineral. Petrogr. Mitt. 15
 //! convexity     V/V_hull
 //! sphericity    π^⅓ (6 V)^⅔ / A                    Wadell (1932), doi:10.1086/623964
+//! roundness     see crate::roundness
 //! ```
 //!
 //! Volume, area and hull are exact. D and the box are minima over all rotations: a search from even orientations and from the principal axes,
@@ -14,6 +15,7 @@
 
 use crate::hull::hull;
 use crate::random::{even, orientation};
+use crate::roundness::roundness;
 use crate::stone::Stone;
 use geom::Vec3;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
@@ -61,6 +63,10 @@ pub struct ShapeMeasures {
     pub convexity: f64,
     /// Area of the sphere of the same volume, over A [–].
     pub sphericity: f64,
+    /// Mean radius of the corners over that of the largest sphere inside [–].
+    pub roundness: f64,
+    /// Radius of that sphere [m].
+    pub inscribed_radius: f64,
 }
 
 impl ShapeMeasures {
@@ -79,6 +85,7 @@ impl ShapeMeasures {
         let mut sides = widths(&found.1);
         sides.sort_by(|a, b| b.total_cmp(a));
         let [long, middle, short] = sides;
+        let (roundness, inscribed_radius) = roundness(stone);
         ShapeMeasures {
             volume,
             area,
@@ -88,6 +95,8 @@ impl ShapeMeasures {
             flatness: short / middle,
             convexity: volume / hull.volume(),
             sphericity: PI.cbrt() * (6.0 * volume).powf(2.0 / 3.0) / area,
+            roundness,
+            inscribed_radius,
         }
     }
 }

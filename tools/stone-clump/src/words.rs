@@ -69,7 +69,14 @@ pub fn summary(clump: &Clump) -> String {
 
 /// One line on the shape.
 pub fn shape(shape: &ShapeMeasures) -> String {
-    let [d, e, f, c, s] =
-        [shape.sieve_size, shape.elongation, shape.flatness, shape.convexity, shape.sphericity].map(Shown);
-    format!("sieve size {d} m, elongation {e}, flatness {f}, convexity {c}, sphericity {s}")
+    let of = [
+        shape.sieve_size,
+        shape.elongation,
+        shape.flatness,
+        shape.convexity,
+        shape.sphericity,
+        (1e3 * shape.roundness).round() / 1e3,
+    ];
+    let [d, e, f, c, s, r] = of.map(Shown);
+    format!("sieve size {d} m, elongation {e}, flatness {f}, convexity {c}, sphericity {s}, roundness {r}")
 }

@@ -49,13 +49,13 @@ fn file(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
 
 /// One stone a line.
 fn table(all: &[Entry], names: &[String]) -> String {
-    let mut out = "number,name,kind,source,faces,volume,area,sieve_size,length,width,thickness,elongation,flatness,convexity,sphericity\n".to_owned();
+    let mut out = "number,name,kind,source,faces,volume,area,sieve_size,length,width,thickness,elongation,flatness,convexity,sphericity,roundness\n".to_owned();
     for (k, (entry, name)) in all.iter().zip(names).enumerate() {
         let (s, [l, i, t]) = (&entry.shape, entry.shape.sides);
         let source = entry.source.replace('"', "\"\"");
         let _ = writeln!(
             out,
-            "{},{name},{},\"{source}\",{},{},{},{},{l},{i},{t},{},{},{},{}",
+            "{},{name},{},\"{source}\",{},{},{},{},{l},{i},{t},{},{},{},{},{}",
             k + 1,
             entry.kind,
             entry.stone.mesh.faces.len(),
@@ -65,7 +65,8 @@ fn table(all: &[Entry], names: &[String]) -> String {
             s.elongation,
             s.flatness,
             s.convexity,
-            s.sphericity
+            s.sphericity,
+            s.roundness
         );
     }
     out
