@@ -225,6 +225,54 @@ fn rigid_stones_are_prepared_with_the_grains_around_them() {
     );
 }
 
+/// Frossard's rule (Frossard et al. 2012, doi:10.1680/geot.10.P.079): of stones whose strength falls with their size D as D^(−3/m), a fill with τ ∝ σ^b is
+/// weaker by (D_B/D_A)^(−3 (1 − b)/m). It follows from similarity alone: with all stiffnesses and strengths as much smaller, lengths do not matter. Here
+/// m = 3, and stones four times as large.
+#[test]
+fn larger_stones_make_a_weaker_fill_as_frossard_says() {
+    let rows = |stone: usize| {
+        // In bricks, so that any plane cuts some of them.
+        let [i, j, k] = [stone % 4, stone / 4 % 4, stone / 16];
+        let corner = [2 * i, 2 * j, 2 * k + (i + j) % 2];
+        let at = move |grain: usize, k: usize| 0.001 * (corner[k] + (grain >> k & 1)) as f64;
+        (0..8).map(move |g| format!("{},{},{},0.0005,{}\n", at(g, 0), at(g, 1), at(g, 2), stone + 1))
+    };
+    let grains: String = (0..48).flat_map(rows).collect();
+    let sample = |size: f64| {
+        let strength = 1.0 / size;
+        let text =
+            ROCK.replace("law = \"hooke\"\nstiffness = 1e5", "law = \"hertz\"").replace("cluster = 1", "");
+        text.replace("young = 1e7", &format!("young = {}", 2e7 * strength))
+            .replace("modulus = 1e8", &format!("modulus = {}", 2e7 * strength))
+            .replace("2e5", &format!("{}", 1e4 * strength))
+            .replace("gap = 1e-6", &format!("gap = {}", 1e-6 * size))
+            .replace("source = \"stone.csv\"", &format!("source = \"stones.csv\"\nscale = {size}"))
+    };
+    let folder = folder(&[
+        ("stones.csv", format!("x,y,z,radius,cluster\n{grains}")),
+        ("small.toml", sample(1.0)),
+        ("large.toml", sample(4.0)),
+    ]);
+    let path = folder.path();
+    let test = |sample: &str, stresses: &str| {
+        let words =
+            ["direct-shear", sample, "--stress", stresses, "--inertial", "0.02", "--rest", "1e-2", "-q"];
+        succeed(path, "lab-test", &[&words[..], &["--report", "r.json", "-o", "c.csv"]].concat());
+        (json(path, "r.json"), columns(path, "c.csv"))
+    };
+    let (small, curves) = test("small.toml", "3000,12000");
+    let (large, _) = test("large.toml", "3000");
+    let strength = |report: &Value, level: usize| figure(report, level, "peak_shear_stress");
+    let [weak, strong] = [0, 1].map(|level| strength(&small, level));
+    let b = (strong / weak).ln() / 4f64.ln();
+    let rule = 4f64.powf(-3.0 * (1.0 - b) / 3.0);
+    let found = strength(&large, 0) / weak;
+    assert!((found / rule - 1.0).abs() < 1e-6, "{found} {rule}");
+    // Stones break, so the envelope bends.
+    let cracks = curves["cracks"].last().unwrap();
+    assert!(*cracks > 10.0 && b < 0.9, "{cracks} {b}");
+}
+
 /// Rough grains stand steeper than smooth ones, poured or turned; both ways make an angle between those of water and of a wall.
 #[test]
 fn a_poured_heap_and_a_drum_tell_rough_grains_from_smooth_ones() {

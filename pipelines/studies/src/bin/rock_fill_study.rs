@@ -17,6 +17,9 @@ use std::{env, fs};
 
 type Failure = Box<dyn Error>;
 
+/// Weibull's modulus of the stones in docs/specimens.md [–].
+const WEIBULL: f64 = 2.6;
+
 /// What one packing gave under one stress [Pa].
 struct Specimen {
     stress: f64,
@@ -45,7 +48,8 @@ fn main() -> Result<(), Failure> {
     let cases = cases.iter().map(case).collect::<Result<Vec<_>, _>>()?;
     table(&cases);
     println!();
-    sentences(&cases).iter().for_each(|sentence| println!("- {sentence}"));
+    let said = sentences(&cases).into_iter().chain(cases.iter().filter_map(envelope));
+    said.for_each(|sentence| println!("- {sentence}"));
     fs::write(picture, draw(Path::new(picture), &cases)?)?;
     Ok(())
 }
@@ -160,6 +164,38 @@ fn difference(one: &Case, other: &Case, (what, of): (&str, &dyn Fn(&Specimen) ->
             format!("The {what} of {a} and {b} do not differ beyond chance: {mean:.1} ± {interval:.1}°.")
         }
     })
+}
+
+/// The exponent of the envelope τ ∝ σ^b of a case, and what it means for larger stones, in words.
+fn envelope(case: &Case) -> Option<String> {
+    let stresses = case.stresses();
+    let of_packing = |packing: &Vec<Specimen>| {
+        let points = packing.iter().filter(|s| s.peak.is_finite());
+        let points: Vec<[f64; 2]> =
+            points.map(|s| [s.stress.ln(), s.stress.ln() + s.peak.to_radians().tan().ln()]).collect();
+        (points.len() == stresses.len()).then(|| slope(&points))
+    };
+    let all: Vec<f64> = case.packings.iter().filter_map(of_packing).collect();
+    if stresses.len() < 3 || all.len() < 2 {
+        return None;
+    }
+    let Mean { mean: b, interval, .. } = mean(&all);
+    let weaker = [b - interval, b, b + interval].map(|b| 10f64.powf(-3.0 * (1.0 - b) / WEIBULL));
+    let sentence = format!("{}: τ ∝ σ^b with b = {b:.2} ± {interval:.2} at the peak.", case.name);
+    let rule = format!(
+        " By Frossard's rule stones ten times as large, of strengths with m = {WEIBULL}, bear {:.2} ({:.2} to {:.2}) of its shear stress.",
+        weaker[1],
+        weaker[0],
+        weaker[2].min(1.0)
+    );
+    Some(if case.name.starts_with("bonded") { sentence + &rule } else { sentence })
+}
+
+/// Slope of a line by least squares.
+fn slope(points: &[[f64; 2]]) -> f64 {
+    let [x, y] = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / points.len() as f64);
+    let [xy, xx] = [1, 0].map(|k| points.iter().map(|p| (p[0] - x) * (p[k] - [x, y][k])).sum::<f64>());
+    xy / xx
 }
 
 /// Pairs of cases worth comparing: with each content bonded with rigid, bonded with loose; soil with each.
