@@ -77,9 +77,19 @@ pub enum ViewError {
         /// What is wrong.
         why: String,
     },
-    /// A field to colour by that no layer has.
-    #[error("colour: no field '{name}' here: choose one of {}", known.join(", "))]
+    /// A field that no layer has.
+    #[error("{what}: no field '{name}' here: choose one of {}", known.join(", "))]
     NoField {
+        /// What it is for.
+        what: &'static str,
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: Vec<String>,
+    },
+    /// A material that the run does not have.
+    #[error("only: no material '{name}' here: choose one of {}", known.join(", "))]
+    NoMaterial {
         /// The name asked for.
         name: String,
         /// The names there are.

@@ -4,7 +4,7 @@ use crate::formats::{self, Format};
 use clap::Parser;
 use cli::Source;
 use std::path::PathBuf;
-use view::{Arrows, Camera, Extras, Map, PictureOptions, Span};
+use view::{Arrows, Camera, Extras, Map, Only, PictureOptions, Span};
 
 /// What is smaller in a picture is hardly seen [pixel].
 const SMALL: u32 = 24;
@@ -13,6 +13,7 @@ const EXAMPLES: &str = "Examples:\n\
     \x20 dem-view run.mcap -o run.html\n\
     \x20 dem-view run.mcap --time 0.02 --colour speed --camera front -o run.png\n\
     \x20 dem-view bonded.mcap --bonds --colour broken --range 0,1 -o bonds.png\n\
+    \x20 dem-view fill.mcap --only material=rock --colour cluster -o stones.png\n\
     \x20 dem-view run.mcap --vectors velocity -o arrows.png\n\
     \x20 dem-view run.mcap --every 0.01 --size 320x180 -o run.gif\n\
     \x20 dem-view sampled.ply --pick -o pick.html";
@@ -34,6 +35,9 @@ pub struct Args {
     /// broken), id, x, y, z, rgb, or any column [default: speed, else z]
     #[arg(long, visible_alias = "color", value_name = "FIELD")]
     pub colour: Option<String>,
+    /// Show only the grains with this value of a field, or with one from LO to HI [SI]; a material by name
+    #[arg(long, value_name = "FIELD=LO,HI", value_parser = formats::only)]
+    pub only: Option<Only>,
     /// Ends of the colour scale in SI units [default: the range of 98 % of the values]
     #[arg(long, value_name = "LO,HI", value_parser = formats::range, allow_hyphen_values = true)]
     pub range: Option<[f64; 2]>,
@@ -129,6 +133,12 @@ impl Args {
         let of_runs = [("--bonds", self.bonds), ("--vectors", self.vectors.is_some())];
         if let Some((name, _)) = of_runs.iter().find(|(_, given)| *given && self.pick) {
             return Err(cli::usage(format!("{name}: a cloud has none: leave it out")));
+        }
+        let others = [("--bonds", self.bonds), ("--vectors", self.vectors.is_some()), ("--pick", self.pick)];
+        if let Some((name, _)) = others.iter().find(|(_, given)| *given && self.only.is_some()) {
+            return Err(cli::usage(format!(
+                "--only: chooses grains, and not what {name} shows: leave one of them out"
+            )));
         }
         let unscaled = match self.colour.as_deref() {
             Some("size") => "size has classes, not a scale: leave it out, or give --colour radius",

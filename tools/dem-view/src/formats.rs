@@ -1,7 +1,7 @@
 //! What the command line's words stand for.
 
 use cli::Output;
-use view::{Arrows, Camera, Map};
+use view::{Arrows, Camera, Map, Only, Wanted};
 
 /// What is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,6 +62,21 @@ pub fn range(text: &str) -> Result<[f64; 2], String> {
         [lo, hi] if lo < hi && lo.is_finite() && hi.is_finite() => Ok([lo, hi]),
         _ => Err("give two numbers, the lower first: 0,1.5".into()),
     }
+}
+
+/// `FIELD=VALUE` or `FIELD=LO,HI`.
+pub fn only(text: &str) -> Result<Only, String> {
+    let such = "give FIELD=VALUE or FIELD=LO,HI, such as cluster=1,40 or material=rock";
+    let (field, value) = text.split_once('=').filter(|(field, _)| !field.is_empty()).ok_or(such)?;
+    let numbers: Option<Vec<f64>> =
+        value.split(',').map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    let wanted = match numbers.as_deref() {
+        Some([one]) => Wanted::Between(*one, *one),
+        Some([low, high]) if low <= high => Wanted::Between(*low, *high),
+        None if field == "material" && !value.is_empty() => Wanted::Material(value.to_owned()),
+        _ => return Err(such.to_owned()),
+    };
+    Ok(Only { field: field.to_owned(), wanted })
 }
 
 /// The name of a colour map.

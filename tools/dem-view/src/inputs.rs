@@ -9,7 +9,7 @@ use stream::{
     Table, Values,
     mcap::{Event, Reader},
 };
-use view::{LayerHead, Motion, Role, Show, SurfaceShape, WallSurface};
+use view::{Chosen, LayerHead, Motion, Role, Show, SurfaceShape, WallSurface};
 
 /// The bytes that every MCAP stream begins with.
 const MCAP: &[u8] = b"\x89MCAP";
@@ -35,6 +35,7 @@ pub fn read_watched(
     watch: &mut dyn FnMut(&str, &Event),
 ) -> anyhow::Result<Vec<Value>> {
     let mut found = Vec::new();
+    let mut chosen = Chosen::new(args.only.clone(), show);
     let (mut scaled, mut runs) = (false, false);
     for source in &args.inputs {
         let mut from = source.open()?;
@@ -54,11 +55,11 @@ pub fn read_watched(
         let layers = match is_mcap {
             true => {
                 runs = true;
-                run(whole, source, args, show, watch)
+                run(whole, source, args, &mut chosen, watch)
             }
             false => {
                 scaled = true;
-                cloud(whole, &name, args, show)
+                cloud(whole, &name, args, &mut chosen)
             }
         };
         found.extend(layers.with_context(|| source.to_string())?);
@@ -72,6 +73,14 @@ pub fn read_watched(
     }
     if !scaled && args.lengths.factor().is_some() {
         return Err(cli::usage("--scale, --units: runs and walls (MCAP) are in metres: leave it out"));
+    }
+    if args.only.is_some() {
+        match chosen.counts() {
+            [_, 0] => return Err(cli::usage("--only: no input has grains: leave it out")),
+            [0, _] => anyhow::bail!("--only: no grain has such a value: give another range"),
+            [shown, all] if shown == all => cli::warn("--only changes nothing: all grains have such a value"),
+            _ => {}
+        }
     }
     Ok(found)
 }

@@ -83,6 +83,6 @@ function describe(name) {
   if (!all.length) return null;
   const joined = (key) => [Math.min(...all.map((f) => f[key][0])), Math.max(...all.map((f) => f[key][1]))];
   const range = joined("all");
-  const kinds = all[0].whole && range[0] >= 0 && range[1] < run.kinds.length;
+  const kinds = all[0].whole && range[0] >= 0 && (range[1] < run.kinds.length || all[0].things);
   return { ...all[0], all: range, shown: joined("shown"), kinds };
 }

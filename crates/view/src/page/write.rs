@@ -118,7 +118,7 @@ impl Page {
         known.extend(self.sizes.classes().map(|_| field::SIZE.to_owned()));
         match self.options.colour.as_deref().map(field::canonical) {
             Some(name) if name != "rgb" && !known.iter().any(|k| k == name) => {
-                Err(ViewError::NoField { name: name.to_owned(), known })
+                Err(ViewError::NoField { what: "colour", name: name.to_owned(), known })
             }
             _ => Ok(()),
         }
@@ -275,7 +275,7 @@ fn arrow_json(key: &ArrowKey) -> Value {
 
 fn named_field(name: &str, whole: bool, all: [f64; 2], shown: [f64; 2]) -> Value {
     let (unit, factor) = scale::readable(field::unit(name), shown[0].abs().max(shown[1].abs()));
-    json!({ "name": name, "whole": whole, "unit": unit, "factor": factor, "all": all, "shown": shown })
+    json!({ "name": name, "whole": whole, "things": whole && field::names_things(name), "unit": unit, "factor": factor, "all": all, "shown": shown })
 }
 
 /// A program without indentation and without lines of comments.

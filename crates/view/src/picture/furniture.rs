@@ -27,7 +27,9 @@ pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureO
         Key::Bar { .. } => bar(&mut pen, [w, h], text, &painted.key),
         Key::Kinds { field, names } => {
             let colours: Vec<colour::Rgb> = (0..names.len()).map(colour::kind).collect();
-            kinds(&mut pen, [w, h], text, field, names, &colours);
+            let by_number =
+                if names.is_empty() { format!("{field} (colours repeat)") } else { field.clone() };
+            kinds(&mut pen, [w, h], text, &by_number, names, &colours);
         }
         Key::Classes { classes, map } => {
             let of = |k| map.at(classes.share(k)).map(|c| (c * 255.0).round() as u8);
@@ -147,7 +149,8 @@ fn widest(labels: &[String], height: f64) -> f64 {
 /// A patch and a name for each kind.
 fn kinds(pen: &mut Pen, [w, h]: [f64; 2], text: f64, field: &str, names: &[String], colours: &[colour::Rgb]) {
     let top = 0.3 * h;
-    let left = w - (0.085 * w).max(2.8 * text + widest(names, text));
+    let own = widest(&[field.to_owned()], text);
+    let left = w - (0.085 * w).max(2.8 * text + widest(names, text)).max(own + text);
     pen.text([left, top - 1.4 * text], text, Anchor::Left, field);
     for (n, (name, colour)) in names.iter().zip(colours).enumerate() {
         let y = top + 2.2 * text * n as f64;

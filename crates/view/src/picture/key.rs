@@ -7,7 +7,7 @@ use stream::{Table, Values};
 pub(crate) enum Key {
     /// A range of a field.
     Bar { field: String, unit: &'static str, range: Range, beyond: [bool; 2], map: Map },
-    /// Kinds by number, with their names.
+    /// Kinds by number, with their names; without any where there are more kinds than colours, which repeat then.
     Kinds { field: String, names: Vec<String> },
     /// Classes of size.
     Classes { classes: Classes, map: Map },

@@ -107,8 +107,10 @@ impl Survey {
         if let Some(classes) = sizes.classes() {
             return Key::Classes { classes, map: options.map };
         }
-        if *whole && all.lo >= 0.0 && all.hi < colour::KIND_COUNT as f64 {
-            let names = (0..=all.hi as usize).map(|k| kinds.get(k).cloned().unwrap_or_else(|| k.to_string()));
+        let few = all.hi < colour::KIND_COUNT as f64;
+        if *whole && all.lo >= 0.0 && (few || field::names_things(&name)) {
+            let count = if few { all.hi as usize + 1 } else { 0 };
+            let names = (0..count).map(|k| kinds.get(k).cloned().unwrap_or_else(|| k.to_string()));
             return Key::Kinds { field: name, names: names.collect() };
         }
         let range = match options.range {
@@ -136,7 +138,7 @@ impl Colours {
         let Some(name) = &self.field else { return Ok(()) };
         let Some(values) = field::values(part.table, name) else {
             let known = field::names(part.table, true).into_iter().chain(["x", "y", "z"].map(str::to_owned));
-            return Err(ViewError::NoField { name: name.clone(), known: known.collect() });
+            return Err(ViewError::NoField { what: "colour", name: name.clone(), known: known.collect() });
         };
         if name == field::SIZE {
             self.sizes.add(values.into_iter());
