@@ -59,6 +59,11 @@ impl Specimen {
         [self.high.x - self.low.x, self.high.y - self.low.y]
     }
 
+    /// Radius of the cylinder in it [m].
+    pub fn radius(&self) -> f64 {
+        0.5 * self.sides()[0]
+    }
+
     /// Mass of its grains [kg].
     pub(crate) fn mass(&self, grains: &Grains) -> f64 {
         self.mass

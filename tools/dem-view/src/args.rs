@@ -13,7 +13,7 @@ const EXAMPLES: &str = "Examples:\n\
     \x20 dem-view run.mcap -o run.html\n\
     \x20 dem-view run.mcap --time 0.02 --colour speed --camera front -o run.png\n\
     \x20 dem-view bonded.mcap --bonds --colour broken --range 0,1 -o bonds.png\n\
-    \x20 dem-view fill.mcap --only material=rock --colour cluster -o stones.png\n\
+    \x20 dem-view bonded.mcap --only id=0,9 --colour broken -o some.png\n\
     \x20 dem-view run.mcap --vectors velocity -o arrows.png\n\
     \x20 dem-view run.mcap --every 0.01 --size 320x180 -o run.gif\n\
     \x20 dem-view sampled.ply --pick -o pick.html";
@@ -150,6 +150,16 @@ impl Args {
             Some(_) => Err(cli::usage(format!("--range: {unscaled}"))),
             None => Ok(()),
         }
+    }
+
+    /// An option about colours that is given.
+    pub fn of_colour(&self) -> Option<&'static str> {
+        let all = [
+            ("--colour", self.colour.is_some()),
+            ("--range", self.range.is_some()),
+            ("--map", self.map.is_some()),
+        ];
+        all.iter().find(|(_, given)| *given).map(|(name, _)| *name)
     }
 
     /// Options of a picture that change nothing in some scenes (no wall is in front, colours of kinds), each with the picture without it.

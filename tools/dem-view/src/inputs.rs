@@ -74,6 +74,11 @@ pub fn read_watched(
     if !scaled && args.lengths.factor().is_some() {
         return Err(cli::usage("--scale, --units: runs and walls (MCAP) are in metres: leave it out"));
     }
+    if found.iter().all(|input| input.get("triangles").is_some())
+        && let Some(option) = args.of_colour()
+    {
+        return Err(cli::usage(format!("{option}: meshes have no field to colour by: leave it out")));
+    }
     if args.only.is_some() {
         match chosen.counts() {
             [_, 0] => return Err(cli::usage("--only: no input has grains: leave it out")),

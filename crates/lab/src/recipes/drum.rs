@@ -25,32 +25,28 @@ const GROOVE: f64 = 0.5;
 /// Time for the bed to come to rest, over √(2 R/g) [–].
 const REST: f64 = 20.0;
 
-fn radius(of: &Specimen) -> f64 {
-    0.5 * of.sides()[0]
-}
-
 /// Centre of the drum [m], at the front face.
 fn centre(of: &Specimen) -> Vec3 {
-    of.low + Vec3::new(radius(of), 0.0, radius(of))
+    of.low + Vec3::new(of.radius(), 0.0, of.radius())
 }
 
 /// Speed of the wall [m/s].
 fn speed(of: &Context) -> f64 {
-    of.request.speed.unwrap_or_else(|| (FROUDE * of.sample.grains.gravity * radius(of.specimen)).sqrt())
+    of.request.speed.unwrap_or_else(|| (FROUDE * of.sample.grains.gravity * of.specimen.radius()).sqrt())
 }
 
 /// Duration of the test [s].
 fn duration(of: &Context) -> f64 {
-    of.request.strain.unwrap_or(TURNS) * 2.0 * PI * radius(of.specimen) / speed(of)
+    of.request.strain.unwrap_or(TURNS) * 2.0 * PI * of.specimen.radius() / speed(of)
 }
 
 /// The grooved wall as triangles: every second edge is half a grain farther in.
 fn wall_of(of: &Context) -> String {
     let (space, grain) = (of.specimen, of.sample.grains.diameter);
     let (middle, width) = (centre(space), space.sides()[1]);
-    let grooves = (2.0 * PI * radius(space) / grain).floor().max(8.0) as usize;
+    let grooves = (2.0 * PI * space.radius() / grain).floor().max(8.0) as usize;
     let edge = |k: usize, y: f64| {
-        let r = radius(space) - if k % 2 == 1 { GROOVE * grain } else { 0.0 };
+        let r = space.radius() - if k % 2 == 1 { GROOVE * grain } else { 0.0 };
         let turn = PI * k as f64 / grooves as f64;
         [middle.x + r * turn.cos(), middle.y + y, middle.z + r * turn.sin()]
     };
@@ -90,7 +86,7 @@ impl Recipe for Drum {
         format!(
             "cylinder:{x},{y},{z},{x},{},{z},{}",
             number(middle.y + width),
-            number(0.92 * radius(specimen))
+            number(0.92 * specimen.radius())
         )
     }
 
@@ -104,7 +100,7 @@ impl Recipe for Drum {
     }
 
     fn preparation(&self, of: &Context) -> Result<Option<Part>> {
-        let until = REST * (2.0 * radius(of.specimen) / of.sample.grains.gravity).sqrt();
+        let until = REST * (2.0 * of.specimen.radius() / of.sample.grains.gravity).sqrt();
         let part = drum(of, until, 20, "");
         Ok(Some(Part { to_rest: true, text: part.text + damping(of.sample), ..part }))
     }
@@ -113,7 +109,7 @@ impl Recipe for Drum {
         let until = duration(of);
         let middle = centre(of.specimen);
         let [x, y, z] = [middle.x, middle.y, middle.z].map(number);
-        let rpm = 60.0 * speed(of) / (2.0 * PI * radius(of.specimen));
+        let rpm = 60.0 * speed(of) / (2.0 * PI * of.specimen.radius());
         let motion = format!(
             "motion = {{ rotate = {{ about = [0, 1, 0], through = [{x}, {y}, {z}], rpm = {} }}, ramp = {} }}\n",
             number(rpm),
@@ -128,7 +124,7 @@ impl Recipe for Drum {
 
     fn curve(&self, of: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
         let times = tables.column("slope", "time")?;
-        let turns = times.iter().map(|t| t * speed(of) / (2.0 * PI * radius(of.specimen))).collect();
+        let turns = times.iter().map(|t| t * speed(of) / (2.0 * PI * of.specimen.radius())).collect();
         Ok(Curve::default().with("time", "s", times).with("turn", "", turns).with(
             "angle",
             "deg",

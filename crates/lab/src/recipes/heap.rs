@@ -22,29 +22,16 @@ const STREAM: (f64, f64) = (1.0 / 6.0, 2.0);
 const SOLID: f64 = 0.15;
 /// Depth of the floor below the plate, in largest diameters.
 const FLOOR: f64 = 4.0;
-/// Facets of the plate.
-const FACETS: usize = 64;
 /// Time for the heap to come to rest, over √(R/g) [–].
 const REST: f64 = 15.0;
 
-fn radius(of: &Context) -> f64 {
-    0.5 * of.specimen.sides()[0]
-}
-
 /// The plate and its rim as triangles.
 fn plate(of: &Context) -> String {
-    let (low, r) = (of.specimen.low, radius(of));
-    let rim = low.z + 0.5 * of.sample.grains.diameter;
-    let point = |k: usize, z: f64| {
-        let turn = 2.0 * PI * k as f64 / FACETS as f64;
-        [low.x + r + r * turn.cos(), low.y + r + r * turn.sin(), z]
-    };
-    let centre = [low.x + r, low.y + r, low.z];
-    let facet = |k: usize| {
-        let [a, b] = [k, k + 1].map(|k| point(k, low.z));
-        triangle([centre, a, b]) + &rectangle(a, b, point(k + 1, rim), point(k, rim))
-    };
-    (0..FACETS).map(facet).collect()
+    let (low, r) = (of.specimen.low, of.specimen.radius());
+    let (centre, rim) = ([low.x + r, low.y + r, low.z], low.z + 0.5 * of.sample.grains.diameter);
+    around(of.specimen, |[a, b]| {
+        triangle([centre, a(low.z), b(low.z)]) + &rectangle(a(low.z), b(low.z), b(rim), a(rim))
+    })
 }
 
 impl Recipe for Heap {
@@ -73,7 +60,7 @@ impl Recipe for Heap {
     }
 
     fn test(&self, of: &Context, _: &Prepared) -> Result<Part> {
-        let (low, r, grains) = (of.specimen.low, radius(of), &of.sample.grains);
+        let (low, r, grains) = (of.specimen.low, of.specimen.radius(), &of.sample.grains);
         let stream = (STREAM.0 * r).max(STREAM.1 * grains.largest);
         let speed = of.request.speed.unwrap_or((4.0 * grains.gravity * grains.largest).sqrt());
         let rate = SOLID * grains.density * PI * stream * stream * speed;
@@ -91,7 +78,7 @@ impl Recipe for Heap {
     }
 
     fn tables(&self, of: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
-        let (low, r) = (of.specimen.low, radius(of));
+        let (low, r) = (of.specimen.low, of.specimen.radius());
         let [x, y, z] = [low.x + r, low.y + r, low.z].map(number);
         let [top, radius] = [low.z + 2.0 * r, r].map(number);
         let heap = format!("cylinder:{x},{y},{z},{x},{y},{top},{radius}");

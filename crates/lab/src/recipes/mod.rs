@@ -22,7 +22,7 @@ use crate::sample::Sample;
 use crate::series::{Curve, Series, smooth};
 use geom::Vec3;
 use std::collections::BTreeMap;
-use text::{cylinder, damping, output, plane, pressing, rectangle, servo, translate, triangle, wall};
+use text::{around, cylinder, damping, output, plane, pressing, rectangle, servo, translate, triangle, wall};
 
 /// All tests.
 pub const ALL: [&dyn Recipe; 9] = [

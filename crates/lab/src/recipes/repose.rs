@@ -11,25 +11,13 @@ pub struct Repose;
 
 /// Speed of lifting over √(g r) [–].
 const LIFT: f64 = 0.1;
-/// Facets of the tube.
-const FACETS: usize = 64;
 /// Time for the heap to come to rest, over √(h/g) [–].
 const REST: f64 = 10.0;
 
-fn radius(of: &Context) -> f64 {
-    0.5 * of.specimen.sides()[0]
-}
-
 /// The tube as triangles.
 fn tube(of: &Context) -> String {
-    let (low, high, r) = (of.specimen.low, of.specimen.high, radius(of));
-    let point = |k: usize, z: f64| {
-        let turn = 2.0 * PI * k as f64 / FACETS as f64;
-        [low.x + r + r * turn.cos(), low.y + r + r * turn.sin(), z]
-    };
-    (0..FACETS)
-        .map(|k| rectangle(point(k, low.z), point(k + 1, low.z), point(k + 1, high.z), point(k, high.z)))
-        .collect()
+    let (low, high) = (of.specimen.low.z, of.specimen.high.z);
+    around(of.specimen, |[a, b]| rectangle(a(low), b(low), b(high), a(high)))
 }
 
 impl Recipe for Repose {
@@ -76,7 +64,7 @@ impl Recipe for Repose {
 
     fn test(&self, of: &Context, _: &Prepared) -> Result<Part> {
         let gravity = of.sample.grains.gravity;
-        let speed = of.request.speed.unwrap_or(LIFT * (gravity * radius(of)).sqrt());
+        let speed = of.request.speed.unwrap_or(LIFT * (gravity * of.specimen.radius()).sqrt());
         // At the height of the column the tube has left the heap.
         let lifted = of.specimen.height / speed;
         let until = lifted + REST * (of.specimen.height / gravity).sqrt();

@@ -4,6 +4,7 @@ use crate::compose::number;
 use crate::request::Specimen;
 use crate::sample::Sample;
 use geom::Vec3;
+use std::f64::consts::PI;
 
 /// A wall as text.
 pub(super) fn wall(name: &str, shape: &str, material: &str, more: &str) -> String {
@@ -23,11 +24,24 @@ pub(super) fn output(until: f64, rows: u64) -> String {
     format!("[output]\nevery = {every}\nwall_forces = true\nprecision = \"f64\"\n\n")
 }
 
+/// Facets of a round wall.
+const FACETS: usize = 64;
+
+/// An upright round wall as triangles: `facet` gives those between two neighbouring directions, of corners at a height [m] on the circle of a specimen.
+pub(super) fn around(specimen: &Specimen, facet: impl Fn([&dyn Fn(f64) -> [f64; 3]; 2]) -> String) -> String {
+    let (low, r) = (specimen.low, specimen.radius());
+    let at = |k: usize| {
+        let turn = 2.0 * PI * k as f64 / FACETS as f64;
+        move |z: f64| [low.x + r + r * turn.cos(), low.y + r + r * turn.sin(), z]
+    };
+    (0..FACETS).map(|k| facet([&at(k), &at(k + 1)])).collect()
+}
+
 /// The upright cylinder in a box, as a shape.
 pub(super) fn cylinder(specimen: &Specimen) -> String {
     let (low, high) = (specimen.low, specimen.high);
     let [x, y] = [0.5 * (low.x + high.x), 0.5 * (low.y + high.y)].map(number);
-    let [c, z, radius] = [low.z, high.z, 0.5 * (high.x - low.x)].map(number);
+    let [c, z, radius] = [low.z, high.z, specimen.radius()].map(number);
     format!("cylinder:{x},{y},{c},{x},{y},{z},{radius}")
 }
 

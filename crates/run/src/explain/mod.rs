@@ -56,6 +56,8 @@ pub struct Fields {
     pub critical_dt_half_overlap: Option<f64>,
     /// `guards.overlap` [–].
     pub guard_overlap: f64,
+    /// Critical step with a restitution of 1 everywhere, where that lengthens it [s].
+    pub critical_dt_elastic: Option<f64>,
     /// Steps of the run.
     pub steps: u64,
     /// Effects.
@@ -151,6 +153,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
         chosen_by,
         critical_dt_half_overlap: half_overlap(&setup, limit.dt)?,
         guard_overlap: setup.guards.overlap,
+        critical_dt_elastic: elastic(&setup, limit.dt)?,
         limiting_pair: explain_step_cause(&limit.cause),
         steps: last,
         effects: effects(scene, &setup).into_iter().map(measured_effect).collect(),
@@ -175,6 +178,16 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
 fn half_overlap(setup: &Setup, critical: f64) -> Result<Option<f64>> {
     let guards = Guards { overlap: 0.5 * setup.guards.overlap, ..setup.guards };
     let dt = critical_step(&Setup { guards, ..setup.clone() })?.dt;
+    Ok(Some(dt).filter(|dt| *dt > LONGER * critical))
+}
+
+/// Critical step with a restitution of 1 everywhere, where that is longer: a dashpot makes a contact stiffer.
+fn elastic(setup: &Setup, critical: f64) -> Result<Option<f64>> {
+    let mut setup = setup.clone();
+    for law in setup.contacts.iter_mut().filter(|law| law.number("restitution").is_some()) {
+        law.set("restitution", 1.0);
+    }
+    let dt = critical_step(&setup)?.dt;
     Ok(Some(dt).filter(|dt| *dt > LONGER * critical))
 }
 

@@ -29,6 +29,13 @@ pub(super) fn text(fields: &Fields) -> String {
         );
     }
     line(&mut out, "stiffness", STIFFNESS);
+    if let Some(elastic) = fields.critical_dt_elastic {
+        let times = elastic / critical_dt;
+        let words = format!(
+            "1 instead of what the scene has would allow a critical step of {elastic:.4e} s, {times:.1} times as long"
+        );
+        line(&mut out, "restitution", words);
+    }
     for (k, matched) in fields.matched_damping.iter().enumerate() {
         line(&mut out, if k == 0 { "damping" } else { "" }, damping(matched));
     }
