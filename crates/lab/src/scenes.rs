@@ -40,7 +40,7 @@ impl Lab {
 
     pub(crate) fn compose_preparation(&self, of: &Context, part: &Part, mut scene: Composition) -> String {
         if let Some(mass) = self.specimen.mass {
-            scene.set("fill.0", "shape", self.recipe.space(&self.specimen));
+            scene.set("fill.0", "shape", self.recipe.space(of));
             scene.set("fill.0", "mass", mass);
             scene.set("fill.0", "seed", of.loading.seed as i64);
         }

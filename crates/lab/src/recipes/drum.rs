@@ -79,15 +79,11 @@ impl Recipe for Drum {
         ([1.0, WIDTH, 1.0], FILLED * PI / 4.0)
     }
 
-    fn space(&self, specimen: &Specimen) -> String {
-        let (middle, width) = (centre(specimen), specimen.sides()[1]);
+    fn space(&self, of: &Context) -> String {
+        let (middle, width) = (centre(of.specimen), of.specimen.sides()[1]);
         let [x, y, z] = [middle.x, middle.y, middle.z].map(number);
-        // Inside of the grooves, of grains of less than a twelfth of the drum.
-        format!(
-            "cylinder:{x},{y},{z},{x},{},{z},{}",
-            number(middle.y + width),
-            number(0.92 * specimen.radius())
-        )
+        let inside = of.specimen.radius() - 1.1 * GROOVE * of.sample.grains.diameter;
+        format!("cylinder:{x},{y},{z},{x},{},{z},{}", number(middle.y + width), number(inside))
     }
 
     fn rest(&self) -> f64 {

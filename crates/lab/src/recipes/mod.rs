@@ -136,7 +136,8 @@ pub trait Recipe: Sync {
     fn proportions(&self) -> ([f64; 3], f64);
 
     /// The space that is filled, as a shape: the box of the specimen.
-    fn space(&self, specimen: &Specimen) -> String {
+    fn space(&self, of: &Context) -> String {
+        let specimen = of.specimen;
         let [a, b, c] = [specimen.low.x, specimen.low.y, specimen.low.z].map(number);
         let [x, y, z] = [specimen.high.x, specimen.high.y, specimen.high.z].map(number);
         format!("box:{a},{b},{c},{x},{y},{z}")

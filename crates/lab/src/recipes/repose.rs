@@ -33,8 +33,8 @@ impl Recipe for Repose {
         ([1.0, 1.0, 1.5], PI / 4.0)
     }
 
-    fn space(&self, specimen: &Specimen) -> String {
-        cylinder(specimen)
+    fn space(&self, of: &Context) -> String {
+        cylinder(of.specimen)
     }
 
     fn rest(&self) -> f64 {

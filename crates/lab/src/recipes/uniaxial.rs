@@ -70,8 +70,8 @@ impl Recipe for Uniaxial {
         ([1.0, 1.0, 2.0], PI / 4.0)
     }
 
-    fn space(&self, specimen: &Specimen) -> String {
-        cylinder(specimen)
+    fn space(&self, of: &Context) -> String {
+        cylinder(of.specimen)
     }
 
     fn friction(&self) -> Option<f64> {
