@@ -67,7 +67,7 @@ pub fn is_whole(table: &Table, name: &str) -> bool {
     table.get(name).is_some_and(|v| !matches!(v, Values::F32(_) | Values::F64(_)))
 }
 
-/// Whether the whole numbers of a field are names: neighbouring ones have nothing in common, so each has a colour of its own.
+/// Whether the whole numbers of a field are names: neighbouring ones have nothing in common, so each has a separate colour.
 pub fn names_things(name: &str) -> bool {
     ["id", "body", "cluster", "class", "material", "wall", "region"].contains(&name)
 }

@@ -118,7 +118,7 @@ impl Packer<'_> {
         false
     }
 
-    /// Moves and turns a stone by chance; whether it could.
+    /// Moves and turns a stone randomly; whether it could.
     fn moved(&mut self, k: usize, step: f64) -> bool {
         let mut draw = || 2.0 * unit(&mut self.random) - 1.0;
         let [way, turn] = [(); 2].map(|()| Vec3::new(draw(), draw(), draw()) * step);
@@ -139,7 +139,7 @@ impl Packer<'_> {
         PlacedStone::new((stone, &self.library.stones[stone]), class, scale, orientation, centre)
     }
 
-    /// Puts a stone in the place of another one, if it is in the box and overlaps no third.
+    /// Puts a stone instead of another one, if it is in the box and overlaps no third.
     fn replaced(&mut self, k: usize, by: PlacedStone) -> bool {
         let [lo, hi] = self.settings.bounds;
         let within = (0..3).all(|a| by.bounds[0][a] >= lo[a] && by.bounds[1][a] <= hi[a]);

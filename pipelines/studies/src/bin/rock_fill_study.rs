@@ -107,12 +107,12 @@ fn mean(values: &[f64]) -> Mean {
     Mean::of(&values.iter().copied().filter(|v| v.is_finite()).collect::<Vec<f64>>())
 }
 
-fn shown(values: &[f64], digits: usize) -> String {
+fn shown(values: &[f64], digits: usize, unit: &str) -> String {
     let of = mean(values);
     match (of.mean.is_finite(), of.interval.is_finite()) {
         (false, _) => "–".to_owned(),
-        (true, false) => format!("{:.digits$}", of.mean),
-        (true, true) => format!("{:.digits$} ± {:.digits$}", of.mean, of.interval),
+        (true, false) => format!("{:.digits$}{unit}", of.mean),
+        (true, true) => format!("{:.digits$} ± {:.digits$}{unit}", of.mean, of.interval),
     }
 }
 
@@ -123,17 +123,19 @@ fn table(cases: &[Case]) {
     println!("|---|---|---|---|---|---|---|---|");
     for case in cases {
         for stress in case.stresses() {
-            let of = |value: &dyn Fn(&Specimen) -> f64, digits| shown(&case.values(stress, value), digits);
+            let of = |value: &dyn Fn(&Specimen) -> f64, digits, unit| {
+                shown(&case.values(stress, value), digits, unit)
+            };
             println!(
-                "| {} | {} kPa | {} | {}° | {}° | {}° | {} | {} |",
+                "| {} | {} kPa | {} | {} | {} | {} | {} | {} |",
                 case.name,
                 stress / 1e3,
                 case.values(stress, |s| s.peak).iter().filter(|v| v.is_finite()).count(),
-                of(&|s| s.peak, 1),
-                of(&|s| s.residual, 1),
-                of(&|s| s.dilation, 1),
-                of(&|s| s.broken[0], 0),
-                of(&|s| s.broken[1], 3),
+                of(&|s| s.peak, 1, "°"),
+                of(&|s| s.residual, 1, "°"),
+                of(&|s| s.dilation, 1, "°"),
+                of(&|s| s.broken[0], 0, ""),
+                of(&|s| s.broken[1], 3, ""),
             );
         }
     }
@@ -221,7 +223,9 @@ fn sentences(cases: &[Case]) -> Vec<String> {
 
 fn draw(file: &Path, cases: &[Case]) -> Result<Vec<u8>, String> {
     let mut plots = Vec::new();
-    for (case, colour) in cases.iter().zip(COLOURS.into_iter().cycle()) {
+    // Grains without bonds lie on the line of soil.
+    let drawn = cases.iter().filter(|case| !case.name.starts_with("loose"));
+    for (case, colour) in drawn.zip(COLOURS.into_iter().cycle()) {
         let point = |stress: f64| (stress / 1e3, mean(&case.values(stress, |s| s.peak)).mean);
         let points = case.stresses().into_iter().map(point).filter(|(_, angle)| angle.is_finite());
         let points: Vec<(f64, f64)> = points.collect();
