@@ -193,6 +193,9 @@ impl OutputStream {
                 let file = open_as_it_is(&target).with_context(failed)?;
                 return Ok(OutputStream::new(Sink::Direct { file, waits: true }, name));
             }
+            Err(_) if is_descriptor(&target) => {
+                anyhow::bail!("{name}: is not open: redirect it to a file, or name one")
+            }
             found => dangling(path, &target, found.ok()),
         }
         let stem = target.file_name().unwrap_or_default().to_string_lossy().into_owned();

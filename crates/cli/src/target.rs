@@ -28,10 +28,12 @@ pub(crate) fn target(path: &Path) -> io::Result<PathBuf> {
 /// Whether a name stands for an open file of this process, such as /dev/stdout: it is written to as it is, because replacing it would leave what others
 /// write there without a name.
 pub(crate) fn is_descriptor(path: &Path) -> bool {
-    fs::canonicalize(folder(path)).is_ok_and(|folder| folder.starts_with("/proc") && folder.ends_with("fd"))
+    let own = format!("/proc/{}/fd", std::process::id());
+    fs::canonicalize(folder(path)).is_ok_and(|folder| folder == Path::new(&own))
 }
 
-/// Opens a device, a pipe or an open file for writing. Stdout and stderr are shared with who opened them, also where they write.
+/// Opens a device, a pipe or an open file for writing. Stdout and stderr are shared with the program that opened them, also where they write; other open
+/// files cannot be, and are refused.
 ///
 /// # Errors
 /// Whatever the system says.
@@ -40,6 +42,8 @@ pub(crate) fn open_as_it_is(path: &Path) -> io::Result<File> {
     match number {
         Some("1") => Ok(io::stdout().as_fd().try_clone_to_owned()?.into()),
         Some("2") => Ok(io::stderr().as_fd().try_clone_to_owned()?.into()),
+        Some("0") => Err(io::Error::other("stdin is read, not written: use /dev/stdout")),
+        Some(_) if path.is_file() => Err(io::Error::other("is an open file: use /dev/stdout, or its name")),
         _ => File::options().append(true).open(path),
     }
 }

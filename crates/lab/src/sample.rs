@@ -53,6 +53,8 @@ pub struct Grains {
     pub step: f64,
     /// Length of the acceleration of free fall [m/s²].
     pub gravity: f64,
+    /// Whether it acts along −z alone.
+    pub falls_down: bool,
     /// Whether there are rigid clumps.
     pub clumps: bool,
     /// Lowest and highest corner of grains that are packed already [m], and each of them.
@@ -117,6 +119,12 @@ impl Sample {
     /// Whether it has a section.
     pub(crate) fn has(&self, section: &str) -> bool {
         self.document.contains_key(section)
+    }
+
+    /// Whether its `[[fill]]` has a key.
+    pub(crate) fn fill_has(&self, key: &str) -> bool {
+        let fills = self.document.get("fill").and_then(Item::as_array_of_tables);
+        fills.is_some_and(|fills| fills.iter().any(|fill| fill.contains_key(key)))
     }
 
     /// Whether a seed changes a specimen of it: its filling, or the strengths of its bonds.
@@ -235,6 +243,7 @@ impl Grains {
             around: 1.0,
             step: 0.0,
             gravity: 0.0,
+            falls_down: false,
             clumps: false,
             packed: None,
         }
@@ -246,6 +255,7 @@ impl Grains {
         let setup = plan.setup;
         let mut grains = Grains {
             gravity: setup.gravity.norm(),
+            falls_down: setup.gravity.z < 0.0 && setup.gravity.x == 0.0 && setup.gravity.y == 0.0,
             clumps: !setup.clumps.placed.is_empty(),
             ..Grains::none()
         };

@@ -58,6 +58,9 @@ impl OfFrame for BedHeight {
     }
 }
 
+/// Fewest bins that a line is fitted to.
+const FEWEST: usize = 3;
+
 /// How the slope of a bed is taken.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlopeOptions {
@@ -76,6 +79,8 @@ pub struct BedSlope {
     options: SlopeOptions,
     angles: Vec<f64>,
     last: [f64; 4],
+    /// Most bins of the frames that have too few.
+    bins: usize,
 }
 
 impl BedSlope {
@@ -85,13 +90,14 @@ impl BedSlope {
     /// Fractions out of order.
     pub fn new(options: SlopeOptions) -> Result<BedSlope, MeasureError> {
         check_fractions(options.fractions)?;
-        Ok(BedSlope { options, angles: Vec::new(), last: [f64::NAN; 4] })
+        Ok(BedSlope { options, angles: Vec::new(), last: [f64::NAN; 4], bins: 0 })
     }
 
     /// Place along the side and height [m] of each bin that is fitted.
     fn profile(&self, surface: &HeapSurface, bin: f64) -> Vec<[f64; 2]> {
-        let along = || surface.points.iter().map(|p| p[0]);
-        let (low, high) = along().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        // Without what flies beside the bed.
+        let mut along: Vec<f64> = surface.points.iter().map(|p| p[0]).collect();
+        let [low, high] = [0.01, 0.99].map(|share| quantile(&mut along, share));
         let [from, to] = self.options.fractions.map(|share| low + share * (high - low));
         let mut bins: Vec<(Vec<f64>, Vec<f64>)> = vec![Default::default(); ((to - from) / bin) as usize + 1];
         for p in surface.points.iter().filter(|p| p[0] >= from && p[0] <= to) {
@@ -121,14 +127,16 @@ impl OfFrame for BedSlope {
             cure: "give a side of the bed, not above or below it (--bed-slope and --up)",
         })?;
         let surface = HeapSurface::new(frame, &axes, None);
-        let bin = self.options.bin.unwrap_or(frame.mean_diameter());
+        let bin = self.options.bin.unwrap_or(frame.mean_diameter().max(surface.step));
         if bin < surface.step {
             let cure = "give at least a quarter of a mean diameter";
             return Err(MeasureError::Setting { what: "bin", value: bin, unit: "m", cure });
         }
         let points = self.profile(&surface, bin);
-        let few = MeasureError::FewGrains { what: "a slope", most: points.len(), wanted: 3 };
-        let line = theil_sen(&points).filter(|_| points.len() >= 3).ok_or(few)?;
+        let Some(line) = theil_sen(&points).filter(|_| points.len() >= FEWEST) else {
+            self.bins = self.bins.max(points.len());
+            return Ok(vec![vec![frame.time, f64::NAN, f64::NAN, f64::NAN]]);
+        };
         let angle = |slope: f64| libm::atan(-slope).to_degrees();
         let [steep, shallow] = line.interval;
         self.last = [frame.time, angle(line.slope), angle(shallow), angle(steep)];
@@ -138,6 +146,15 @@ impl OfFrame for BedSlope {
 
     fn end(&mut self) -> Result<(Vec<Row>, Summary), MeasureError> {
         let [time, angle, low, high] = self.last;
+        if self.angles.is_empty() {
+            let cure = "give a smaller --bin, wider --fractions, or frames with more grains";
+            return Err(MeasureError::Setting {
+                what: "bins with grains",
+                value: self.bins as f64,
+                unit: "of 3 at least",
+                cure,
+            });
+        }
         let summary = match self.angles.len() {
             1 => Summary::default().with("angle", "deg", angle).with("angle_low", "deg", low).with(
                 "angle_high",
@@ -210,5 +227,16 @@ mod tests {
             "{down} {up} {across}"
         );
         assert!(matches!(angle(Vec3::z()), Err(MeasureError::Setting { .. })));
+        // A grain far beside the bed, which makes the grid coarser.
+        let mut stray = frame.clone();
+        stray.id.push(1800);
+        stray.position.push(Vec3::new(5.0, 0.0, 0.0));
+        stray.radius.push(r);
+        let options = SlopeOptions { side: Vec3::x(), up: None, fractions: [0.2, 0.8], bin: None };
+        let found = BedSlope::new(options.clone()).unwrap().measure(&Run::default(), &stray).unwrap()[0][1];
+        assert!((found - 20.0).abs() < 0.5, "{found}");
+        let narrow = SlopeOptions { fractions: [0.49, 0.5], ..options };
+        let mut few = BedSlope::new(narrow).unwrap();
+        assert!(few.measure(&Run::default(), &frame).unwrap()[0][1].is_nan() && few.end().is_err());
     }
 }

@@ -16,7 +16,7 @@ use crate::random::random_orientation;
 use geom::random::{generator, unit};
 use geom::{Grid, Shown, Vec3};
 use rand_pcg::Pcg64Mcg;
-use report::missed;
+use report::{Obstacle, missed};
 use thiserror::Error;
 
 /// Stream of random numbers.
@@ -86,6 +86,8 @@ struct ClassRun {
     undone: Undone,
     /// Stones for which room was made.
     crowded: usize,
+    /// What was in the way of the last one for which none was made.
+    obstacle: Option<Obstacle>,
     /// Whether its content is not reached.
     missed: bool,
 }
@@ -159,7 +161,7 @@ impl Packer<'_> {
 
     /// Refuses a class of which not even the smallest stone fits into the box.
     fn fits(&self, class: &Class) -> Result<(), PackError> {
-        let room = (self.settings.bounds[1] - self.settings.bounds[0]).min();
+        let room = self.room();
         let scale =
             |k: usize| class.sieves.map_or(1.0, |(low, _)| low / self.library.stones[k].shape.sieve_size);
         let width = |k: usize| self.library.stones[k].shape.sides[2] * scale(k);
@@ -171,6 +173,11 @@ impl Packer<'_> {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Shortest side of the box [m].
+    fn room(&self) -> f64 {
+        (self.settings.bounds[1] - self.settings.bounds[0]).min()
     }
 
     /// The total mass at the end [kg], as far as it is known.
@@ -215,7 +222,7 @@ impl Packer<'_> {
             }
         }
         if self.settings.rounds > 0 && !self.is_reached(index, class) {
-            run.crowded = self.crowd(index, class, &mut run.undone, progress);
+            (run.crowded, run.obstacle) = self.crowd(index, class, &mut run.undone, progress);
         }
         run.missed = !self.is_reached(index, class);
         run
@@ -238,7 +245,7 @@ impl Packer<'_> {
         let of = &self.library.stones[stone];
         let scale = (volume / of.stone.moments.volume).cbrt();
         let Some(mut placed) = self.random_place(stone, class, scale) else {
-            undone.too_large += 1;
+            undone.count(Obstacle::TooLarge);
             return false;
         };
         if !self.is_free(&placed, usize::MAX) {
@@ -247,11 +254,11 @@ impl Packer<'_> {
         }
         placed.grains = self.grains(&placed);
         if placed.grains.len() < self.settings.least_grains {
-            undone.few_grains += 1;
+            undone.count(Obstacle::FewGrains);
             return false;
         }
         if placed.grains.iter().any(|&g| self.clusters[g as usize] > 0) {
-            undone.shared_grains += 1;
+            undone.count(Obstacle::SharedGrains);
             return false;
         }
         self.volumes[class] += placed.volume(of);
@@ -308,7 +315,7 @@ impl Packer<'_> {
                 tries: run.tries,
                 undone: run.undone,
                 crowded: run.crowded,
-                missed: run.missed.then(|| missed(run.tries, &run.undone)),
+                missed: run.missed.then(|| missed(run.tries, &run.undone, run.obstacle)),
             }
         };
         let classes = (0..classes.len()).map(report).collect();

@@ -88,7 +88,10 @@ pub enum ViewError {
         known: Vec<String>,
     },
     /// A material that the run does not have.
-    #[error("only: no material '{name}' here: choose one of {}", known.join(", "))]
+    #[error("only: no material '{name}' here: {}", match known.len() {
+        0 => "materials have numbers alone, so give one, such as material=1".to_owned(),
+        _ => format!("choose one of {}", known.join(", ")),
+    })]
     NoMaterial {
         /// The name asked for.
         name: String,

@@ -27,14 +27,16 @@ pub struct Chosen<'a, S> {
     show: &'a mut S,
     /// Of each layer: its materials, where it has grains.
     layers: Vec<Option<Vec<String>>>,
-    /// Grains that were shown, and all, in all frames.
+    /// Grains that were shown, and all of the layers that have the field, in all frames.
     counts: [usize; 2],
+    /// Fields of a layer of grains that does not have it.
+    without: Option<Vec<String>>,
 }
 
 impl<'a, S: Show> Chosen<'a, S> {
     /// Without `only` all grains are shown.
     pub fn new(only: Option<Only>, show: &'a mut S) -> Chosen<'a, S> {
-        Chosen { only, show, layers: Vec::new(), counts: [0; 2] }
+        Chosen { only, show, layers: Vec::new(), counts: [0; 2], without: None }
     }
 
     /// Grains that were shown, and all, in all frames.
@@ -42,12 +44,23 @@ impl<'a, S: Show> Chosen<'a, S> {
         self.counts
     }
 
-    fn chosen(&self, only: &Only, kinds: &[String], table: &Table) -> Result<Vec<u32>, ViewError> {
-        let name = field::canonical(&only.field);
-        let values = field::values(table, name).ok_or_else(|| {
-            let known = field::names(table, true).into_iter().chain(["x", "y", "z"].map(str::to_owned));
-            ViewError::NoField { what: "only", name: name.to_owned(), known: known.collect() }
-        })?;
+    /// Refuses a field that no layer of grains has.
+    ///
+    /// # Errors
+    /// There are grains, and none has it.
+    pub fn check(&self) -> Result<(), ViewError> {
+        match (&self.only, &self.without, self.counts) {
+            (Some(only), Some(known), [_, 0]) => {
+                let name = field::canonical(&only.field).to_owned();
+                Err(ViewError::NoField { what: "only", name, known: known.clone() })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Rows of the wanted grains; `None`: the table does not have the field, and is shown whole.
+    fn chosen(&self, only: &Only, kinds: &[String], table: &Table) -> Result<Option<Vec<u32>>, ViewError> {
+        let Some(values) = field::values(table, field::canonical(&only.field)) else { return Ok(None) };
         let [low, high] = match &only.wanted {
             Wanted::Between(low, high) => [*low, *high],
             Wanted::Material(of) => match kinds.iter().position(|kind| kind == of) {
@@ -56,7 +69,7 @@ impl<'a, S: Show> Chosen<'a, S> {
             },
         };
         let rows = values.iter().enumerate().filter(|(_, v)| (low..=high).contains(*v));
-        Ok(rows.map(|(row, _)| row as u32).collect())
+        Ok(Some(rows.map(|(row, _)| row as u32).collect()))
     }
 }
 
@@ -76,7 +89,11 @@ impl<S: Show> Show for Chosen<'_, S> {
         let (Some(only), Some(Some(kinds))) = (&self.only, self.layers.get(layer)) else {
             return self.show.push(layer, time, table);
         };
-        let rows = self.chosen(only, kinds, &table)?;
+        let Some(rows) = self.chosen(only, kinds, &table)? else {
+            let known = field::names(&table, true).into_iter().chain(["x", "y", "z"].map(str::to_owned));
+            self.without = Some(known.collect());
+            return self.show.push(layer, time, table);
+        };
         self.counts = [self.counts[0] + rows.len(), self.counts[1] + table.rows()];
         self.show.push(layer, time, table.select(&rows))
     }
@@ -120,6 +137,7 @@ mod tests {
         let of = chosen.layer(LayerHead { kinds, ..LayerHead::new(Role::Grains, "grains") });
         chosen.push(walls, 0.0, grains())?;
         chosen.push(of, 0.0, grains())?;
+        chosen.check()?;
         let counts = chosen.counts();
         Ok((seen, counts))
     }

@@ -99,6 +99,13 @@ fn an_open_file_is_written_to_and_not_replaced() {
     let both = "{ echo before; dem-run s.toml -q -o run.mcap --report /dev/stdout; echo after; } > all.txt";
     assert_eq!(line(f, both).code, 0);
     let all = fs::read_to_string(f.join("all.txt")).unwrap();
+    for (target, said) in
+        [("/dev/fd/7", "is not open"), ("/dev/fd/3", "is an open file"), ("/dev/stdin", "is read")]
+    {
+        let words = format!("dem-run s.toml -q -o run.mcap --report {target} 3> three.txt");
+        let done = line(f, &words);
+        assert!(done.code != 0 && done.stderr.contains(said), "{words}: {}", done.stderr);
+    }
     assert!(all.starts_with("before\n{") && all.ends_with("}\nafter\n"), "{all}");
 }
 

@@ -79,6 +79,7 @@ pub fn read_watched(
     {
         return Err(cli::usage(format!("{option}: meshes have no field to colour by: leave it out")));
     }
+    chosen.check()?;
     if args.only.is_some() {
         match chosen.counts() {
             [_, 0] => return Err(cli::usage("--only: no input has grains: leave it out")),

@@ -33,7 +33,7 @@ pub struct Args {
     /// Change a key of the sample (repeat)
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     pub set: Vec<String>,
-    /// Size of the specimen [m]: x; x,z; or x,y,z (a cylinder: diameter; diameter,height)
+    /// Size of the specimen [m]: x; x,z; or x,y,z (a cylinder: diameter; diameter,height; a heap, a drum: diameter)
     #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = length, conflicts_with = "grains")]
     pub size: Vec<f64>,
     /// Grains of each specimen, about [default: 2000]

@@ -15,8 +15,9 @@ const FILLED: f64 = 0.25;
 const WIDTH: f64 = 0.4;
 /// Froude number ω² R/g, below which grains roll down steadily (Mellmann 2001, DOI 10.1016/S0032-5910(00)00402-2) [–].
 const FROUDE: f64 = 0.01;
-/// Turns of a test [–].
+/// Turns of a test, and the fewest [–].
 const TURNS: f64 = 0.3;
+const LEAST: f64 = 0.2;
 /// Share of the test in which the drum gets up to speed, and after which the bed flows steadily [–].
 const RAMP: f64 = 0.02;
 const STEADY: f64 = 0.5;
@@ -92,6 +93,13 @@ impl Recipe for Drum {
     }
 
     fn check(&self, sample: &Sample, request: &Request) -> Result<()> {
+        one_length(self.name(), request)?;
+        if let Some(turns) = request.strain.filter(|turns| *turns < LEAST) {
+            return Err(LabError::Usage(format!(
+                "--strain {}: the bed turns with the drum until it flows: give at least {LEAST} turns",
+                geom::Shown(turns)
+            )));
+        }
         falls(self.name(), sample, request)
     }
 
@@ -111,6 +119,7 @@ impl Recipe for Drum {
             number(rpm),
             number(RAMP * until)
         );
+        let until = until + 0.5 * RAMP * until;
         Ok(Part { bonds: true, ..drum(of, until, of.request.rows, &motion) })
     }
 
@@ -120,7 +129,12 @@ impl Recipe for Drum {
 
     fn curve(&self, of: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
         let times = tables.column("slope", "time")?;
-        let turns = times.iter().map(|t| t * speed(of) / (2.0 * PI * of.specimen.radius())).collect();
+        // On the way up to its speed the drum turns half as far.
+        let late = 0.5 * RAMP * duration(of);
+        let turns = times
+            .iter()
+            .map(|t| (t - late).max(0.0) * speed(of) / (2.0 * PI * of.specimen.radius()))
+            .collect();
         Ok(Curve::default().with("time", "s", times).with("turn", "", turns).with(
             "angle",
             "deg",

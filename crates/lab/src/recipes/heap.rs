@@ -52,6 +52,15 @@ impl Recipe for Heap {
         unused(request.strain.is_some(), "--strain", self.name(), "the heap ends the test")?;
         unused(request.rest.is_some(), "--rest", self.name(), "nothing is prepared")?;
         unused(request.friction.is_some(), "--friction", self.name(), "nothing is prepared")?;
+        one_length(self.name(), request)?;
+        if let Some(key) = ["cluster", "velocity"].into_iter().find(|key| sample.fill_has(key)) {
+            let cure = "take it out: a stream has none of its own".into();
+            return Err(LabError::Sample {
+                file: sample.name.clone(),
+                what: format!("has fill.0.{key}"),
+                cure,
+            });
+        }
         falls(self.name(), sample, request)
     }
 

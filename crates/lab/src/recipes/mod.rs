@@ -235,10 +235,22 @@ fn falls(test: &str, sample: &Sample, request: &Request) -> Result<()> {
     if sample.is_packed() {
         return Err(wrong("has [[particles]]", format!("{test} pours its own grains: give a [[fill]]")));
     }
-    if sample.grains.gravity == 0.0 {
-        return Err(wrong("has no gravity", "grains fall only with it: give gravity = [0, 0, -9.81]".into()));
+    if !sample.grains.falls_down {
+        return Err(wrong("has no gravity along −z", "give gravity = [0, 0, -9.81]".into()));
+    }
+    if sample.has("local_damping") {
+        let cure = "take it out: it would hold grains that roll down".into();
+        return Err(wrong("has [local_damping]", cure));
     }
     Ok(())
+}
+
+/// Refuses another size than a diameter, which the amount of grains follows from.
+fn one_length(test: &str, request: &Request) -> Result<()> {
+    match request.size.as_ref().map_or(1, Vec::len) {
+        1 => Ok(()),
+        n => Err(LabError::Usage(format!("--size has {n} lengths: {test} takes one, the diameter"))),
+    }
 }
 
 /// Angle of a heap by sectors, as a curve.

@@ -1,12 +1,12 @@
 //! Makes room for stones that find none at random: a stone begins small in a gap, and grows while it and its neighbours move a little.
 //!
 //! Placing at random ends when the gaps are smaller than the stones, long before the box is full ("jamming limit" of random sequential addition: 38 % of
-//! the volume for equal spheres; Feder 1980, DOI 10.1016/0022-5193(80)90358-6). Moves of hard bodies by chance (Metropolis et al. 1953,
+//! the volume for equal spheres; Feder 1980, DOI 10.1016/0022-5193(80)90358-6). Random moves of hard bodies (Metropolis et al. 1953,
 //! DOI 10.1063/1.1699114) gather gaps into larger ones, and growth between them (in the manner of Lubachevsky & Stillinger 1990, DOI 10.1007/BF01025983)
 //! takes them at once. A move or a growth that would make two stones overlap, or leave the box, is undone, so what holds of stones that are placed at random
 //! holds here.
 
-use super::{Packer, Undone};
+use super::{Obstacle, Packer, Undone};
 use crate::grading::Class;
 use crate::placed::PlacedStone;
 use geom::Vec3;
@@ -24,81 +24,91 @@ const GROWTH: [f64; 5] = [0.2, 0.1, 0.05, 0.02, 0.005];
 /// Largest move at first, over the radius of the sphere around a stone [–], and its limits.
 const MOVE: f64 = 0.1;
 const MOVES: [f64; 2] = [1e-3, 0.3];
+/// Stones in a row that cannot be placed, after which a class ends.
+const FAILURES: u32 = 5;
 /// Moves of a round that should succeed [–]: fewer, and they become shorter.
 const SUCCESS: f64 = 0.4;
 
 impl Packer<'_> {
-    /// Makes room for stones of a class, one after the other, until its content is reached or a stone does not find room; the number of stones.
+    /// Makes room for stones of a class, one after the other, until its content is reached or several in a row cannot be placed; the number of stones,
+    /// and what was in the way of the last one.
     pub(super) fn crowd(
         &mut self,
         index: usize,
         class: &Class,
         undone: &mut Undone,
         progress: &impl Fn(f64),
-    ) -> usize {
-        let mut stones = 0;
+    ) -> (usize, Option<Obstacle>) {
+        let (mut stones, mut failures, mut last) = (0, 0, None);
         // Stones that are too heavy for what is missing are drawn again, as often as at random.
         for _ in 0..self.settings.tries {
-            if self.is_reached(index, class) {
+            if self.is_reached(index, class) || failures == FAILURES {
                 break;
             }
             let Some((stone, volume)) = self.draw(index, class) else {
                 undone.too_heavy += 1;
                 continue;
             };
-            if !self.make_room(stone, index, volume) {
-                undone.no_room += 1;
-                break;
+            match self.make_room(stone, index, volume) {
+                Ok(()) => {
+                    (stones, failures) = (stones + 1, 0);
+                    progress(self.done());
+                }
+                Err(obstacle) => {
+                    undone.count(obstacle);
+                    (failures, last) = (failures + 1, Some(obstacle));
+                }
             }
-            stones += 1;
-            progress(self.done());
         }
-        stones
+        (stones, last)
     }
 
-    /// Places a stone small and lets it grow; all is as before where it does not reach its size.
-    fn make_room(&mut self, stone: usize, class: usize, volume: f64) -> bool {
+    /// Places a stone small and lets it grow; all is as before where that does not place it.
+    fn make_room(&mut self, stone: usize, class: usize, volume: f64) -> Result<(), Obstacle> {
         let of = &self.library.stones[stone];
         let full = (volume / of.stone.moments.volume).cbrt();
-        let Some((seed, share)) = self.seed(stone, class, full) else { return false };
+        let (seed, share) = self.seed(stone, class, full)?;
         let new = self.placed.len();
         let near = NEAR * of.shape.sieve_size * full + of.reach * full;
         let close = |p: &PlacedStone| {
             (p.centre - seed.centre).norm() < near + self.library.stones[p.stone].reach * p.scale
         };
-        let mut moving: Vec<usize> = (0..new).filter(|k| close(&self.placed[*k])).collect();
-        moving.push(new);
-        let before: Vec<PlacedStone> =
-            moving[..moving.len() - 1].iter().map(|k| self.placed[*k].clone()).collect();
+        let others: Vec<usize> = (0..new).filter(|k| close(&self.placed[*k])).collect();
+        let before: Vec<PlacedStone> = others.iter().map(|k| self.placed[*k].clone()).collect();
+        let moving: Vec<usize> = others.iter().copied().chain([new]).collect();
         self.placed.push(seed);
-        let fits = self.grow(&moving, full, share) && self.claim(&moving);
-        if !fits {
-            moving.iter().for_each(|k| self.release(*k));
-            self.placed.truncate(new);
-            moving.iter().zip(before).for_each(|(k, stone)| self.placed[*k] = stone);
-            moving[..moving.len() - 1].iter().for_each(|k| self.take(*k));
-            return false;
+        let placed = self.grow(&moving, full, share).and_then(|()| self.claim(&moving));
+        match placed {
+            Ok(()) => self.volumes[class] += volume,
+            Err(_) => {
+                moving.iter().for_each(|k| self.release(*k));
+                self.placed.truncate(new);
+                others.iter().zip(before).for_each(|(k, stone)| self.placed[*k] = stone);
+                others.iter().for_each(|k| self.take(*k));
+            }
         }
-        self.volumes[class] += volume;
-        true
+        placed
     }
 
     /// A stone at a share of its size, in a gap.
-    fn seed(&mut self, stone: usize, class: usize, full: f64) -> Option<(PlacedStone, f64)> {
+    fn seed(&mut self, stone: usize, class: usize, full: f64) -> Result<(PlacedStone, f64), Obstacle> {
+        if self.library.stones[stone].shape.sides[2] * full > self.room() {
+            return Err(Obstacle::TooLarge);
+        }
         for share in SEEDS {
             for _ in 0..PLACES {
                 let at = self.random_place(stone, class, share * full);
                 if let Some(placed) = at.filter(|placed| self.is_free(placed, usize::MAX)) {
-                    return Some((placed, share));
+                    return Ok((placed, share));
                 }
             }
         }
-        None
+        Err(Obstacle::NoRoom)
     }
 
     /// Rounds of moves and growth until the last of the moving stones has its size.
-    fn grow(&mut self, moving: &[usize], full: f64, mut share: f64) -> bool {
-        let Some(&new) = moving.last() else { return false };
+    fn grow(&mut self, moving: &[usize], full: f64, mut share: f64) -> Result<(), Obstacle> {
+        let new = self.placed.len() - 1;
         let mut step = MOVE;
         for _ in 0..self.settings.rounds {
             let moved = moving.iter().filter(|k| self.moved(**k, step)).count();
@@ -112,10 +122,10 @@ impl Packer<'_> {
             });
             share = fits.unwrap_or(share);
             if share >= 1.0 {
-                return true;
+                return Ok(());
             }
         }
-        false
+        Err(Obstacle::NoRoom)
     }
 
     /// Moves and turns a stone randomly; whether it could.
@@ -158,21 +168,21 @@ impl Packer<'_> {
         !others.any(|(_, other)| placed.overlaps(of(placed.stone), other, of(other.stone)))
     }
 
-    /// Gives stones that have moved the grains that are inside of them now; false if one has too few, or shares one.
-    fn claim(&mut self, moving: &[usize]) -> bool {
+    /// Gives stones that have moved the grains that are inside of them now.
+    fn claim(&mut self, moving: &[usize]) -> Result<(), Obstacle> {
         moving.iter().for_each(|k| self.release(*k));
-        moving.iter().all(|&k| {
-            self.placed[k].grains = self.grains(&self.placed[k]);
-            let grains = &self.placed[k].grains;
-            let has_enough = grains.len() >= self.settings.least_grains;
-            let free = has_enough && grains.iter().all(|g| self.clusters[*g as usize] == 0);
-            if free {
-                self.take(k);
-            } else {
-                self.placed[k].grains.clear();
+        for &k in moving {
+            let grains = self.grains(&self.placed[k]);
+            if grains.len() < self.settings.least_grains {
+                return Err(Obstacle::FewGrains);
             }
-            free
-        })
+            if grains.iter().any(|g| self.clusters[*g as usize] > 0) {
+                return Err(Obstacle::SharedGrains);
+            }
+            self.placed[k].grains = grains;
+            self.take(k);
+        }
+        Ok(())
     }
 
     /// The grains of a stone become those of the soil again.

@@ -37,7 +37,7 @@ function showLegend() {
   legend.hidden = !about && !bonds;
   if (about) legend.append(element("h2", about.unit ? `${about.name} [${about.unit}]` : about.name));
   if (about?.kinds && about.all[1] >= run.kinds.length) {
-    legend.append(element("p", "a colour for each number; they repeat"));
+    legend.append(element("p", "colours repeat"));
   } else if (about?.kinds) {
     const names = mainLayers[0].kinds;
     const kinds = run.kinds.slice(0, about.all[1] + 1).map((colour, k) => [colour, (about.name === "material" && names[k]) || String(k)]);
