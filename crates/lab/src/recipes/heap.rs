@@ -54,7 +54,7 @@ impl Recipe for Heap {
         unused(request.friction.is_some(), "--friction", self.name(), "nothing is prepared")?;
         one_length(self.name(), request)?;
         if let Some(key) = ["cluster", "velocity"].into_iter().find(|key| sample.fill_has(key)) {
-            let cure = "take it out: a stream has none of its own".into();
+            let cure = "take it out: --speed is that of the stream".into();
             return Err(LabError::Sample {
                 file: sample.name.clone(),
                 what: format!("has fill.0.{key}"),
