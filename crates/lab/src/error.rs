@@ -1,5 +1,6 @@
 //! What a laboratory test refuses, and what can go wrong while it runs.
 
+use crate::sample::Sample;
 use scene::{SceneError, SceneSetupError};
 use std::path::PathBuf;
 use thiserror::Error;
@@ -43,6 +44,11 @@ pub enum LabError {
 }
 
 impl LabError {
+    /// What is wrong with a sample, and its cure.
+    pub(crate) fn sample(sample: &Sample, what: impl Into<String>, cure: impl Into<String>) -> LabError {
+        LabError::Sample { file: sample.name.clone(), what: what.into(), cure: cure.into() }
+    }
+
     pub(crate) fn file(
         file: impl Into<PathBuf>,
         what: &'static str,

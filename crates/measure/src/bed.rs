@@ -127,11 +127,7 @@ impl OfFrame for BedSlope {
             cure: "give a side of the bed, not above or below it (--bed-slope and --up)",
         })?;
         let surface = HeapSurface::new(frame, &axes, None);
-        let bin = self.options.bin.unwrap_or(frame.mean_diameter().max(surface.step));
-        if bin < surface.step {
-            let cure = "give at least a quarter of a mean diameter";
-            return Err(MeasureError::Setting { what: "bin", value: bin, unit: "m", cure });
-        }
+        let bin = surface.bin(self.options.bin, frame.mean_diameter().max(surface.step))?;
         let points = self.profile(&surface, bin);
         let Some(line) = theil_sen(&points).filter(|_| points.len() >= FEWEST) else {
             self.bins = self.bins.max(points.len());

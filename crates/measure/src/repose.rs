@@ -144,11 +144,7 @@ pub fn heap_angle(frame: &Frame, options: &HeapOptions, up: Option<Vec3>) -> Res
     };
     let overhang = overhang::overhang(frame, &axes);
     let surface = HeapSurface::new(frame, &axes, options.ground);
-    let bin = options.bin.unwrap_or(frame.mean_diameter());
-    if bin < surface.step {
-        let cure = "give at least a quarter of a mean diameter";
-        return Err(MeasureError::Setting { what: "bin", value: bin, unit: "m", cure });
-    }
+    let bin = surface.bin(options.bin, frame.mean_diameter())?;
     let (axis, profiles) = match options.wall {
         None => profiles::sectors(&surface, options.sectors, bin),
         Some(_) => profiles::lanes(&surface, options.sectors, bin),

@@ -252,14 +252,12 @@ impl Packer<'_> {
             undone.overlaps += 1;
             return false;
         }
-        placed.grains = self.grains(&placed);
-        if placed.grains.len() < self.settings.least_grains {
-            undone.count(Obstacle::FewGrains);
-            return false;
-        }
-        if placed.grains.iter().any(|&g| self.clusters[g as usize] > 0) {
-            undone.count(Obstacle::SharedGrains);
-            return false;
+        match self.own_grains(&placed) {
+            Ok(grains) => placed.grains = grains,
+            Err(obstacle) => {
+                undone.count(obstacle);
+                return false;
+            }
         }
         self.volumes[class] += placed.volume(of);
         self.placed.push(placed);
@@ -283,6 +281,16 @@ impl Packer<'_> {
         let fits = (0..3).all(|k| first[k] <= last[k]);
         let centre = first + (last - first).component_mul(&Vec3::from(draw));
         fits.then(|| PlacedStone::new((stone, of), class, scale, orientation, centre))
+    }
+
+    /// The grains of a stone: enough of them, and none of another stone.
+    fn own_grains(&self, placed: &PlacedStone) -> Result<Vec<u32>, Obstacle> {
+        let grains = self.grains(placed);
+        if grains.len() < self.settings.least_grains {
+            return Err(Obstacle::FewGrains);
+        }
+        let shared = grains.iter().any(|&g| self.clusters[g as usize] > 0);
+        if shared { Err(Obstacle::SharedGrains) } else { Ok(grains) }
     }
 
     /// Grains whose centres are in a stone, ascending.

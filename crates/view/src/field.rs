@@ -33,6 +33,11 @@ pub fn names(table: &Table, components: bool) -> Vec<String> {
     names
 }
 
+/// All names that a person may give, for messages.
+pub fn known(table: &Table) -> Vec<String> {
+    names(table, true).into_iter().chain(["x", "y", "z"].map(str::to_owned)).collect()
+}
+
 /// One value a row, or none when the table has no such field.
 pub fn values(table: &Table, name: &str) -> Option<Vec<f64>> {
     if let Some(column) = table.get(name) {

@@ -90,8 +90,7 @@ impl<S: Show> Show for Chosen<'_, S> {
             return self.show.push(layer, time, table);
         };
         let Some(rows) = self.chosen(only, kinds, &table)? else {
-            let known = field::names(&table, true).into_iter().chain(["x", "y", "z"].map(str::to_owned));
-            self.without = Some(known.collect());
+            self.without = Some(field::known(&table));
             return self.show.push(layer, time, table);
         };
         self.counts = [self.counts[0] + rows.len(), self.counts[1] + table.rows()];

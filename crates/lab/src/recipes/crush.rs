@@ -53,11 +53,7 @@ impl Recipe for Crush {
         unused(request.inertial.is_some(), "--inertial", "crush", why)?;
         unused(request.friction.is_some(), "--friction", "crush", "the stone is not prepared")?;
         unused(request.rest.is_some(), "--rest", "crush", "the stone is not prepared")?;
-        let wrong = |what: &str, cure: &str| LabError::Sample {
-            file: sample.name.clone(),
-            what: what.into(),
-            cure: cure.into(),
-        };
+        let wrong = |what, cure| LabError::sample(sample, what, cure);
         if !sample.has("bond") {
             return Err(wrong("has no [[bond]]", "a stone that breaks needs one"));
         }

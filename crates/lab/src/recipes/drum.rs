@@ -21,7 +21,7 @@ const LEAST: f64 = 0.2;
 /// Share of the test in which the drum gets up to speed, and after which the bed flows steadily [–].
 const RAMP: f64 = 0.02;
 const STEADY: f64 = 0.5;
-/// Depth of a groove, and facets of the wall, over the mean diameter [–].
+/// Depth of a groove over the mean diameter [–].
 const GROOVE: f64 = 0.5;
 /// Time for the bed to come to rest, over √(2 R/g) [–].
 const REST: f64 = 20.0;
@@ -36,9 +36,15 @@ fn speed(of: &Context) -> f64 {
     of.request.speed.unwrap_or_else(|| (FROUDE * of.sample.grains.gravity * of.specimen.radius()).sqrt())
 }
 
-/// Duration of the test [s].
-fn duration(of: &Context) -> f64 {
-    of.request.strain.unwrap_or(TURNS) * 2.0 * PI * of.specimen.radius() / speed(of)
+/// Turns in a second [1/s].
+fn frequency(of: &Context) -> f64 {
+    speed(of) / (2.0 * PI * of.specimen.radius())
+}
+
+/// Duration of the test at full speed, and that of the ramp before [s]; on the ramp the drum turns half as far.
+fn durations(of: &Context) -> [f64; 2] {
+    let whole = of.request.strain.unwrap_or(TURNS) * 2.0 * PI * of.specimen.radius() / speed(of);
+    [whole, RAMP * whole]
 }
 
 /// The grooved wall as triangles: every second edge is half a grain farther in.
@@ -110,17 +116,15 @@ impl Recipe for Drum {
     }
 
     fn test(&self, of: &Context, _: &Prepared) -> Result<Part> {
-        let until = duration(of);
+        let [whole, ramp] = durations(of);
         let middle = centre(of.specimen);
         let [x, y, z] = [middle.x, middle.y, middle.z].map(number);
-        let rpm = 60.0 * speed(of) / (2.0 * PI * of.specimen.radius());
         let motion = format!(
             "motion = {{ rotate = {{ about = [0, 1, 0], through = [{x}, {y}, {z}], rpm = {} }}, ramp = {} }}\n",
-            number(rpm),
-            number(RAMP * until)
+            number(60.0 * frequency(of)),
+            number(ramp)
         );
-        let until = until + 0.5 * RAMP * until;
-        Ok(Part { bonds: true, ..drum(of, until, of.request.rows, &motion) })
+        Ok(Part { bonds: true, ..drum(of, whole + 0.5 * ramp, of.request.rows, &motion) })
     }
 
     fn tables(&self, _: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
@@ -129,12 +133,8 @@ impl Recipe for Drum {
 
     fn curve(&self, of: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
         let times = tables.column("slope", "time")?;
-        // On the way up to its speed the drum turns half as far.
-        let late = 0.5 * RAMP * duration(of);
-        let turns = times
-            .iter()
-            .map(|t| (t - late).max(0.0) * speed(of) / (2.0 * PI * of.specimen.radius()))
-            .collect();
+        let late = 0.5 * durations(of)[1];
+        let turns = times.iter().map(|t| (t - late).max(0.0) * frequency(of)).collect();
         Ok(Curve::default().with("time", "s", times).with("turn", "", turns).with(
             "angle",
             "deg",
@@ -147,7 +147,7 @@ impl Recipe for Drum {
         let steady: Vec<f64> = times
             .iter()
             .zip(&angles)
-            .filter(|(t, _)| **t >= STEADY * duration(of))
+            .filter(|(t, _)| **t >= STEADY * durations(of)[0])
             .map(|(_, a)| *a)
             .collect();
         let value = |name, value| Value { name, unit: "deg", value };

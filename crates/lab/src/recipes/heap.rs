@@ -54,12 +54,8 @@ impl Recipe for Heap {
         unused(request.friction.is_some(), "--friction", self.name(), "nothing is prepared")?;
         one_length(self.name(), request)?;
         if let Some(key) = ["cluster", "velocity"].into_iter().find(|key| sample.fill_has(key)) {
-            let cure = "take it out: --speed is that of the stream".into();
-            return Err(LabError::Sample {
-                file: sample.name.clone(),
-                what: format!("has fill.0.{key}"),
-                cure,
-            });
+            let cure = "take it out: --speed is that of the stream";
+            return Err(LabError::sample(sample, format!("has fill.0.{key}"), cure));
         }
         falls(self.name(), sample, request)
     }

@@ -230,17 +230,15 @@ const RESIDUAL: f64 = 0.2;
 fn falls(test: &str, sample: &Sample, request: &Request) -> Result<()> {
     let speed = "grains fall at their own speed (--speed is that of the wall or the stream)";
     unused(request.inertial.is_some(), "--inertial", test, speed)?;
-    let wrong =
-        |what: &str, cure: String| LabError::Sample { file: sample.name.clone(), what: what.into(), cure };
+    let wrong = |what, cure: &str| Err(LabError::sample(sample, what, cure));
     if sample.is_packed() {
-        return Err(wrong("has [[particles]]", format!("{test} pours its own grains: give a [[fill]]")));
+        return wrong("has [[particles]]", &format!("{test} pours its own grains: give a [[fill]]"));
     }
     if !sample.grains.falls_down {
-        return Err(wrong("has no gravity along −z", "give gravity = [0, 0, -9.81]".into()));
+        return wrong("has no gravity along −z", "give gravity = [0, 0, -9.81]");
     }
     if sample.has("local_damping") {
-        let cure = "take it out: it would hold grains that roll down".into();
-        return Err(wrong("has [local_damping]", cure));
+        return wrong("has [local_damping]", "take it out: it would hold grains that roll down");
     }
     Ok(())
 }

@@ -47,9 +47,7 @@ impl Recipe for TriaxialPeriodic {
     }
 
     fn check(&self, sample: &Sample, _: &Request) -> Result<()> {
-        let refuse = |what: &str, cure: &str| {
-            Err(LabError::Sample { file: sample.name.clone(), what: what.to_owned(), cure: cure.to_owned() })
-        };
+        let refuse = |what, cure| Err(LabError::sample(sample, what, cure));
         if sample.grains.gravity > 0.0 {
             return refuse(
                 "has gravity, and nothing holds a specimen without walls",

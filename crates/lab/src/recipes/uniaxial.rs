@@ -110,7 +110,7 @@ impl Recipe for Uniaxial {
             "has no [[bond]]".to_owned(),
             "grains without bonds have no strength in uniaxial compression: add a [[bond]], or use triaxial",
         );
-        Err(LabError::Sample { file: sample.name.clone(), what, cure: cure.to_owned() })
+        Err(LabError::sample(sample, what, cure))
     }
 
     fn preparation(&self, of: &Context) -> Result<Option<Part>> {

@@ -1,6 +1,6 @@
 //! The surface of a bed from above: the height of the highest grain over each point of a grid.
 
-use crate::Frame;
+use crate::{Frame, MeasureError};
 use geom::Vec3;
 
 /// Rays per mean diameter.
@@ -90,6 +90,17 @@ impl HeapSurface {
         let points = heights.iter().enumerate().filter(|(_, h)| h.is_finite()).map(at).collect();
         let ground = ground.unwrap_or_else(|| crate::statistics::quantile(&mut bottoms, 0.01));
         HeapSurface { points, ground, step, grid: (low, count) }
+    }
+
+    /// Width of the bins of a profile [m]: the given one, or the usual one.
+    ///
+    /// # Errors
+    /// Narrower than the grid.
+    pub(crate) fn bin(&self, given: Option<f64>, usual: f64) -> Result<f64, MeasureError> {
+        let bin = given.unwrap_or(usual);
+        let cure = "give at least a quarter of a mean diameter";
+        let narrow = MeasureError::Setting { what: "bin", value: bin, unit: "m", cure };
+        if bin < self.step { Err(narrow) } else { Ok(bin) }
     }
 
     /// Level centre of what stands above half of the greatest height: where the top of a heap is.

@@ -172,14 +172,7 @@ impl Packer<'_> {
     fn claim(&mut self, moving: &[usize]) -> Result<(), Obstacle> {
         moving.iter().for_each(|k| self.release(*k));
         for &k in moving {
-            let grains = self.grains(&self.placed[k]);
-            if grains.len() < self.settings.least_grains {
-                return Err(Obstacle::FewGrains);
-            }
-            if grains.iter().any(|g| self.clusters[*g as usize] > 0) {
-                return Err(Obstacle::SharedGrains);
-            }
-            self.placed[k].grains = grains;
+            self.placed[k].grains = self.own_grains(&self.placed[k])?;
             self.take(k);
         }
         Ok(())

@@ -137,8 +137,8 @@ impl Colours {
     fn add(&mut self, part: &DrawnTable) -> Result<(), ViewError> {
         let Some(name) = &self.field else { return Ok(()) };
         let Some(values) = field::values(part.table, name) else {
-            let known = field::names(part.table, true).into_iter().chain(["x", "y", "z"].map(str::to_owned));
-            return Err(ViewError::NoField { what: "colour", name: name.clone(), known: known.collect() });
+            let known = field::known(part.table);
+            return Err(ViewError::NoField { what: "colour", name: name.clone(), known });
         };
         if name == field::SIZE {
             self.sizes.add(values.into_iter());
