@@ -107,3 +107,36 @@ fn errors_end_with_the_right_code() {
         );
     }
 }
+
+#[test]
+fn tests_with_the_same_command_share_its_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let test = |name: &str, value: f64| {
+        format!(
+            "[[test]]\nname = \"{name}\"\ncommand = \"echo run >> {{here}}/log; awk 'BEGIN {{ print \\\"sum,product\\\"; print {{a}} + {{b}} \\\",\\\" {{a}} * {{b}} }}' > both.csv\"\n\
+             read = \"both.csv\"\ny = \"{name}\"\nvalue = {value}\ndeviation = 0.05\n"
+        )
+    };
+    let parameter = |name: &str, low: f64, high: f64| {
+        format!("[[parameter]]\nname = \"{name}\"\nbounds = [{low}, {high}]\n")
+    };
+    let settings = "[settings]\ntrials = 16\nfirst = 8\nbatch = 4\n".to_owned();
+    let text = [
+        settings,
+        parameter("a", 0.0, 2.0),
+        parameter("b", 2.0, 5.0),
+        test("sum", 4.0),
+        test("product", 3.0),
+    ];
+    fs::write(path.join("both.toml"), text.concat()).unwrap();
+    succeed(path, "calibrate", &["both.toml", "-q", "--jobs", "2", "--dir", "trials", "-o", "found.csv"]);
+    let trials = read(path, "trials/trials.csv").lines().count() - 1;
+    assert_eq!(read(path, "log").lines().count(), trials, "each trial ran its command once");
+    let found = read(path, "found.csv");
+    let value = |name: &str| {
+        let row = found.lines().find(|l| l.starts_with(&format!("{name},"))).unwrap();
+        row.split(',').nth(2).unwrap().parse::<f64>().unwrap()
+    };
+    assert!((value("a") - 1.0).abs() < 0.1 && (value("b") - 3.0).abs() < 0.1, "{found}");
+}

@@ -91,6 +91,14 @@ impl Test {
     }
 }
 
+impl Recipe {
+    /// The first test with the command of this one: their runs are the same, and are made once.
+    pub fn first_with_command_of(&self, test: usize) -> usize {
+        let command = &self.tests[test].command;
+        self.tests.iter().position(|t| &t.command == command).unwrap_or(test)
+    }
+}
+
 /// Data for a test without, or instead of, those of the recipe: `NAME=FILE`, or `FILE` for the only test or the next one without data.
 pub type GivenData = Vec<String>;
 

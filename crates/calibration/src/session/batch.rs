@@ -43,7 +43,7 @@ struct Count {
 impl Work {
     pub fn new(session: &Session, since: u64) -> Work {
         let trials: usize = session.recipe.steps.iter().map(|s| s.trials).sum();
-        let each: usize = session.tests().map(|t| session.runs_of(t)).sum();
+        let each: usize = session.commands().iter().map(|tests| session.runs_of(tests[0])).sum();
         Work {
             hashes: Hashes::default(),
             open: Vec::new(),
@@ -86,7 +86,20 @@ impl Session<'_> {
         (0..self.recipe.tests.len()).filter(|&t| self.candidates || self.recipe.tests[t].target.is_some())
     }
 
-    pub(super) fn runs_of(&self, test: usize) -> usize {
+    /// The tests that are simulated, those with the same command together.
+    fn commands(&self) -> Vec<Vec<usize>> {
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for test in self.tests() {
+            let first = self.recipe.first_with_command_of(test);
+            match groups.iter_mut().find(|g| self.recipe.first_with_command_of(g[0]) == first) {
+                Some(group) => group.push(test),
+                None => groups.push(vec![test]),
+            }
+        }
+        groups
+    }
+
+    fn runs_of(&self, test: usize) -> usize {
         if self.recipe.tests[test].is_random() { self.recipe.settings.seeds as usize } else { 1 }
     }
 
@@ -118,32 +131,30 @@ impl Session<'_> {
         let mut new: Vec<Tried> = proposal.points.iter().enumerate().map(trial).map(empty).collect();
         let best =
             tried.iter().filter_map(|t| misfit(self.recipe, &step.to, t)).fold(f64::INFINITY, f64::min);
-        // After the first batch, tests run one after the other, so that hopeless trials are seen early.
-        let all: Vec<usize> = self.tests().collect();
-        let phases: Vec<Vec<usize>> = if of.1 == 0 || self.recipe.settings.abandon == 0.0 {
-            vec![all]
-        } else {
-            all.into_iter().map(|t| vec![t]).collect()
-        };
-        for tests in phases {
-            let runs = self.prepare(&new, &tests, work)?;
+        // After the first batch, commands run one after the other, so that hopeless trials are seen early.
+        let commands = self.commands();
+        let phases =
+            if of.1 == 0 || self.recipe.settings.abandon == 0.0 { vec![commands.concat()] } else { commands };
+        for (k, tests) in phases.iter().enumerate() {
+            let runs = self.prepare(&new, tests, work)?;
             if self.list {
-                let open: Vec<PathBuf> = runs
-                    .iter()
-                    .flatten()
+                let open: Vec<PathBuf> = once(&runs)
+                    .into_iter()
                     .filter(|r| !is_done(&r.file, &r.job, u64::MAX))
-                    .map(|r| r.file.clone())
+                    .map(|r| r.file)
                     .collect();
                 if !open.is_empty() {
                     work.open = open;
                     return Ok(false);
                 }
             } else {
-                self.work_off(&runs.concat(), work, &step.name)?;
+                self.work_off(&once(&runs), work, &step.name)?;
             }
             for (tried, runs) in new.iter_mut().zip(&runs) {
                 self.collect(tried, runs);
-                self.abandon(step, tried, best, &tests);
+                if k + 1 < phases.len() {
+                    self.abandon(step, tried, best);
+                }
             }
         }
         for t in &mut new {
@@ -215,8 +226,10 @@ impl Session<'_> {
 
     /// Reads what the runs of a trial printed.
     fn collect(&self, tried: &mut Tried, runs: &[Run]) {
-        for run in runs {
+        for run in once(&[runs.to_vec()]) {
             tried.seconds += seconds(trial::run::ended(&run.file, &run.job));
+        }
+        for run in runs {
             match outcome(run, &self.recipe.tests[run.test]) {
                 Outcome::Done(curve) => tried.curves[run.test].push(curve),
                 Outcome::Stopped(why) => note(tried, Status::Stopped, why),
@@ -239,8 +252,8 @@ impl Session<'_> {
     }
 
     /// A trial whose first tests are hopeless is spared the others.
-    fn abandon(&self, step: &Step, tried: &mut Tried, best: f64, tests: &[usize]) {
-        if tried.status != Status::Done || self.tests().last() == tests.last().copied() {
+    fn abandon(&self, step: &Step, tried: &mut Tried, best: f64) {
+        if tried.status != Status::Done {
             return;
         }
         let known: f64 = step.to.iter().filter_map(|part| part_misfit(self.recipe, part, tried)).sum();
@@ -263,6 +276,12 @@ impl Session<'_> {
         );
         Err(CalibrateError::Folder { folder: trial::folder(&self.dir, first.trial.number), message })
     }
+}
+
+/// The runs of all trials, each once.
+fn once(runs: &[Vec<Run>]) -> Vec<Run> {
+    let mut files = std::collections::BTreeSet::new();
+    runs.iter().flatten().filter(|r| files.insert(r.file.clone())).cloned().collect()
 }
 
 fn note(tried: &mut Tried, status: Status, why: String) {

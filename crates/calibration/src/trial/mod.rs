@@ -48,9 +48,9 @@ pub fn folder(dir: &Path, number: usize) -> PathBuf {
     dir.join("trials").join(format!("{number:04}"))
 }
 
-/// The runs of a trial for one test: one a seed.
+/// The runs of a trial for one test: one a seed. Tests with the same command share them.
 pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize, hashes: &mut run::Hashes) -> Vec<Run> {
-    let (of, seeds) = (&recipe.tests[test], recipe.settings.seeds);
+    let (of, seeds) = (&recipe.tests[recipe.first_with_command_of(test)], recipe.settings.seeds);
     let count = if of.is_random() { seeds } else { 1 };
     let values: Vec<String> =
         recipe.parameters.iter().zip(&trial.z).map(|(p, z)| shown(p.value(*z))).collect();
@@ -63,14 +63,8 @@ pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize, hashes: &mu
         let movable = filled(&of.command, &blanks);
         let command = filled(&movable, &[("here", stream::quoted(&recipe.here.display().to_string()))]);
         let name = if of.is_random() { format!("{}-{seed}", slug(&of.name)) } else { slug(&of.name) };
-        let stamp = hashes.stamp(&movable, &command, of.read.as_deref());
-        let job = Job {
-            test: of.name.clone(),
-            command,
-            stamp,
-            read: of.read.clone(),
-            timeout: recipe.settings.timeout,
-        };
+        let stamp = hashes.stamp(&movable, &command);
+        let job = Job { test: of.name.clone(), command, stamp, timeout: recipe.settings.timeout };
         Run { test, file: folder(dir, trial.number).join(format!("{name}.job")), job }
     };
     (0..count).map(|k| make(k, hashes)).collect()

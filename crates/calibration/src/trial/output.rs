@@ -45,7 +45,7 @@ pub fn outcome(run: &Run, test: &Test) -> Outcome {
 
 /// The curve that a run printed.
 fn curve(run: &Run, test: &Test) -> Result<Vec<(f64, f64)>> {
-    let path = run::folder(&run.file).join(run.job.read.as_deref().unwrap_or("stdout"));
+    let path = run::folder(&run.file).join(test.read.as_deref().unwrap_or("stdout"));
     let text =
         fs::read_to_string(&path).map_err(crate::error::file(&path, "cannot read what the command wrote"))?;
     let name = path.display().to_string();

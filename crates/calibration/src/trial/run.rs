@@ -24,8 +24,6 @@ pub struct Job {
     pub command: String,
     /// SHA-256 of the line and of the files that it names.
     pub stamp: String,
-    /// The file that is read; absent: stdout.
-    pub read: Option<String>,
     /// Longest time [s].
     pub timeout: Option<f64>,
 }
@@ -202,8 +200,8 @@ impl Hashes {
     }
 
     /// The stamp of a command; `movable` is the same without the place of the recipe.
-    pub fn stamp(&mut self, movable: &str, command: &str, read: Option<&str>) -> String {
-        let mut all = format!("{movable}\n{}\n", read.unwrap_or(""));
+    pub fn stamp(&mut self, movable: &str, command: &str) -> String {
+        let mut all = format!("{movable}\n");
         let tools =
             std::env::current_exe().ok().and_then(|e| e.parent().map(Path::to_owned)).unwrap_or_default();
         for word in
