@@ -1,18 +1,20 @@
 //! Crop: which points stay.
 //!
-//! A point stays if it is in at least one `keep` (or none is given) and in no `remove`. Of the rest, points beyond the outer shape,
-//! isolated points and small parts are removed on request.
+//! A point stays if it is in at least one `keep` (or none is given) and in no `remove`. Of the rest, points beyond the outer shape, isolated
+//! points, grazing ones, ground, scattered ones and small parts are removed on request, in this order. What a rule, or an earlier crop that only
+//! marked points, removes inside a `restore` stays all the same.
 
+use crate::ground::{self, Ground, GroundError};
 use crate::outer::{self, Outer, Outside};
 use crate::points::{TooFar, check_reach};
 use crate::regions::{Action, Region};
+use crate::scatter::{self, Scattered};
 use crate::{Cloud, largest, outliers};
 use geom::{Shape, Vec3};
 use rayon::prelude::*;
 use serde::Serialize;
-
-/// Points judged by one task.
-const CHUNK: usize = 1 << 14;
+use stream::Values;
+use thiserror::Error;
 
 /// What to keep.
 #[derive(Debug, Clone, Default)]
@@ -27,8 +29,78 @@ pub struct Rules {
     pub outer: Outer,
     /// Remove points far from their neighbours.
     pub outliers: Option<outliers::Outliers>,
+    /// Remove points whose surface every viewpoint sees at more than this angle to its normal [°].
+    pub grazing: Option<f64>,
+    /// Where scanners stood [m], beside the viewpoints that the cloud states.
+    pub seen_from: Vec<Vec3>,
+    /// Remove the ground.
+    pub ground: Option<Ground>,
+    /// Remove points that lie on no surface.
+    pub scattered: Option<Scattered>,
     /// Keep only the largest part whose points are connected by steps of at most this [m].
     pub largest: Option<f64>,
+    /// What the rules below the outer shape, or marks, remove in these shapes stays.
+    pub restore: Vec<Shape>,
+    /// Keep all points, and mark those that would go ([`MARK`]).
+    pub mark: bool,
+}
+
+impl Rules {
+    /// Whether no point can go.
+    pub fn removes_nothing(&self) -> bool {
+        let shapes = self.keep.len() + self.remove.len() + self.regions.len() + self.outer.shapes.len();
+        shapes == 0 && !self.measure()
+    }
+
+    /// Whether a rule looks at points together.
+    pub(crate) fn measure(&self) -> bool {
+        let some = [
+            self.outliers.is_some(),
+            self.grazing.is_some(),
+            self.ground.is_some(),
+            self.scattered.is_some(),
+        ];
+        some.contains(&true) || self.largest.is_some()
+    }
+}
+
+/// The property of marked clouds: 0, or the number of the [`Reason`].
+pub const MARK: &str = "removed";
+
+/// Why a point goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Reason {
+    /// It is in no shape to keep, or in one to remove.
+    Shape = 1,
+    /// It is beyond the outer shape.
+    Outer,
+    /// It is far from its neighbours.
+    Outlier,
+    /// Its surface lies along the line of sight.
+    Grazing,
+    /// It is ground.
+    Ground,
+    /// It is on no surface.
+    Scattered,
+    /// It belongs to a smaller part.
+    SmallerPart,
+}
+
+/// Why a cloud cannot be cropped.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[allow(missing_docs)]
+pub enum CropError {
+    #[error(transparent)]
+    TooFar(#[from] TooFar),
+    #[error(transparent)]
+    Ground(#[from] GroundError),
+    #[error("--grazing: the cloud states no viewpoint: give --seen-from x,y,z, where the scanner stood")]
+    NoViewpoint,
+    #[error(
+        "--restore: nothing is removed that could be restored: no rule is given, and the cloud has no marks (--mark)"
+    )]
+    NothingToRestore,
 }
 
 /// What was kept and why not.
@@ -46,10 +118,20 @@ pub struct Cropped {
     pub beyond_outer: usize,
     /// The parts that they make up, when an outer shape is described.
     pub beyond: Option<Outside>,
+    /// Points that were marked before.
+    pub marked_before: usize,
     /// Points far from their neighbours.
     pub outliers: usize,
+    /// Points whose surface lies along the line of sight.
+    pub grazing: usize,
+    /// Points of the ground.
+    pub ground: usize,
+    /// Points on no surface.
+    pub scattered: usize,
     /// Points of smaller parts.
     pub smaller_parts: usize,
+    /// Points of these, and of those that were marked before, that were restored.
+    pub restored: usize,
     /// Points that stay.
     pub points_out: usize,
 }
@@ -102,52 +184,156 @@ impl ShapeTest<'_> {
     }
 }
 
-/// The points that stay, in their order, with all their properties.
+/// The points that stay, in their order, with all their properties; or all finite ones, marked.
 ///
 /// # Errors
-/// A point farther away than distances to others can be computed with, where a rule asks for them and no shape has taken it away.
-pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), TooFar> {
+/// A point farther away than distances to others can be computed with, where a rule asks for them and no shape has taken it away; a rule
+/// without what it needs.
+pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), CropError> {
     let points = &cloud.points;
-    let is_finite = |p: &Vec3| p.x.is_finite() && p.y.is_finite() && p.z.is_finite();
-    let judge = ShapeTest::new(rules);
-    let judged: Vec<(Vec<u32>, usize)> = points
-        .par_chunks(CHUNK)
-        .enumerate()
-        .map(|(chunk, points)| {
-            let first = (chunk * CHUNK) as u32;
-            let finite = (first..).zip(points).filter(|(_, p)| is_finite(p));
-            let bad = points.len() - finite.clone().count();
-            (finite.filter(|(_, p)| judge.stays(p)).map(|(i, _)| i).collect(), bad)
-        })
-        .collect();
-    let not_finite = judged.iter().map(|(_, bad)| bad).sum();
-    let mut rows: Vec<u32> = judged.into_iter().flat_map(|(rows, _)| rows).collect();
-    let mut report = Cropped { points_in: points.len(), not_finite, ..Cropped::default() };
-    report.outside_shapes = points.len() - not_finite - rows.len();
+    let mut report = Cropped { points_in: points.len(), ..Cropped::default() };
     report.regions = rules.regions.iter().map(|region| count(points, region)).collect();
+    let mut sieve = Sieve::new(cloud, rules);
+    report.not_finite = sieve.count(|r| r == NOT_FINITE);
+    report.outside_shapes = sieve.count(|r| r == Reason::Shape as u8);
+    report.marked_before = sieve.count(|r| r & BEFORE != 0);
     if !rules.outer.shapes.is_empty() {
-        let some: Vec<Vec3> = rows.iter().map(|&r| points[r as usize]).collect();
-        let beyond = outer::beyond(&some, &rules.outer);
+        let beyond = sieve.apply(Reason::Outer, |some| {
+            let beyond = outer::beyond(some, &rules.outer);
+            (all_but(some.len(), &beyond.rows), beyond)
+        });
         report.beyond_outer = beyond.rows.len();
-        rows = without(rows, &beyond.rows);
         report.beyond = Some(beyond);
     }
-    if rules.outliers.is_some() || rules.largest.is_some() {
-        check_reach(rows.iter().map(|&r| (r as usize, &points[r as usize])))?;
+    if rules.measure() {
+        check_reach(sieve.rows().iter().map(|&r| (r as usize, &points[r as usize])))?;
     }
     if let Some(rule) = &rules.outliers {
-        let before = rows.len();
-        rows = refine(points, rows, |p| outliers::inliers(p, rule));
-        report.outliers = before - rows.len();
+        report.outliers = sieve.keep(Reason::Outlier, |some| outliers::inliers(some, rule));
+    }
+    if let Some(degrees) = rules.grazing {
+        let eyes: Vec<Vec3> = rules.seen_from.iter().copied().chain(cloud.viewpoints()).collect();
+        if eyes.is_empty() {
+            return Err(CropError::NoViewpoint);
+        }
+        report.grazing = sieve.keep(Reason::Grazing, |some| scatter::faced(some, &eyes, degrees));
+    }
+    if let Some(rule) = &rules.ground {
+        let above = sieve.apply(Reason::Ground, |some| match ground::above(some, rule) {
+            Ok(rows) => (rows, Ok(())),
+            Err(e) => (Vec::new(), Err(e)),
+        });
+        above?;
+        report.ground = sieve.count(|r| r == Reason::Ground as u8);
+    }
+    if let Some(rule) = &rules.scattered {
+        report.scattered = sieve.keep(Reason::Scattered, |some| scatter::compact(some, rule));
     }
     if let Some(radius) = rules.largest {
-        let before = rows.len();
-        rows = refine(points, rows, |p| largest::largest(p, radius));
-        report.smaller_parts = before - rows.len();
+        report.smaller_parts = sieve.keep(Reason::SmallerPart, |some| largest::largest(some, radius));
     }
-    report.points_out = rows.len();
-    let all = rows.len() == points.len();
-    Ok((if all { cloud.clone() } else { cloud.select(&rows) }, report))
+    if !rules.restore.is_empty() {
+        if !rules.measure() && report.marked_before == 0 {
+            return Err(CropError::NothingToRestore);
+        }
+        report.restored = sieve.restore(&rules.restore);
+    }
+    report.points_out = sieve.rows().len();
+    Ok((sieve.cloud(cloud, rules.mark), report))
+}
+
+/// Why each point goes.
+struct Sieve<'a> {
+    points: &'a [Vec3],
+    /// 0 of a point that stays, else the number of a [`Reason`], with [`BEFORE`] of a point that was marked before; or [`NOT_FINITE`].
+    reasons: Vec<u8>,
+}
+
+/// Added to the number of a reason: an earlier crop has marked the point.
+const BEFORE: u8 = 64;
+/// The reason of points without finite coordinates; never written.
+const NOT_FINITE: u8 = 32;
+
+impl<'a> Sieve<'a> {
+    /// Shapes, and marks that a cloud has.
+    fn new(cloud: &'a Cloud, rules: &Rules) -> Sieve<'a> {
+        let judge = ShapeTest::new(rules);
+        let marks = match cloud.attributes.get(MARK) {
+            Some(Values::U8(marks)) => marks.as_slice(),
+            _ => &[],
+        };
+        let of = |(i, p): (usize, &Vec3)| match marks.get(i) {
+            _ if !p.iter().all(|c| c.is_finite()) => NOT_FINITE,
+            _ if !judge.stays(p) => Reason::Shape as u8,
+            None | Some(0) => 0,
+            Some(mark) => BEFORE | *mark.min(&(Reason::SmallerPart as u8)),
+        };
+        Sieve { points: &cloud.points, reasons: cloud.points.par_iter().enumerate().map(of).collect() }
+    }
+
+    /// How many points have such a reason.
+    fn count(&self, has: impl Fn(u8) -> bool) -> usize {
+        self.reasons.iter().filter(|r| has(**r)).count()
+    }
+
+    /// Rows that stay so far.
+    fn rows(&self) -> Vec<u32> {
+        (0u32..).zip(&self.reasons).filter(|(_, reason)| **reason == 0).map(|(i, _)| i).collect()
+    }
+
+    /// Of the points so far, those stay that `choose` picks, by ascending rows; and what else it says.
+    fn apply<T>(&mut self, reason: Reason, choose: impl FnOnce(&[Vec3]) -> (Vec<u32>, T)) -> T {
+        let rows = self.rows();
+        let some: Vec<Vec3> = rows.iter().map(|&r| self.points[r as usize]).collect();
+        let (stay, more) = choose(&some);
+        for &row in &without(rows, &stay) {
+            self.reasons[row as usize] = reason as u8;
+        }
+        more
+    }
+
+    /// The same; says how many go.
+    fn keep(&mut self, reason: Reason, choose: impl FnOnce(&[Vec3]) -> Vec<u32>) -> usize {
+        self.apply(reason, |some| {
+            let stay = choose(some);
+            let gone = some.len() - stay.len();
+            (stay, gone)
+        })
+    }
+
+    /// Points in the shapes come back if a rule or a mark has removed them; how many.
+    fn restore(&mut self, shapes: &[Shape]) -> usize {
+        let by_rule = Reason::Outlier as u8..=Reason::SmallerPart as u8;
+        let mut count = 0;
+        for (reason, p) in self.reasons.iter_mut().zip(self.points) {
+            let can = *reason & BEFORE != 0 || by_rule.contains(reason);
+            if can && shapes.iter().any(|s| s.contains(p)) {
+                *reason = 0;
+                count += 1;
+            }
+        }
+        count
+    }
+
+    /// What stays; or all that is finite, with marks.
+    fn cloud(&self, cloud: &Cloud, mark: bool) -> Cloud {
+        let goes = |reason: u8| if mark { reason == NOT_FINITE } else { reason != 0 };
+        let rows: Vec<u32> =
+            (0u32..).zip(&self.reasons).filter(|(_, r)| !goes(**r)).map(|(i, _)| i).collect();
+        let mut out = if rows.len() == cloud.points.len() { cloud.clone() } else { cloud.select(&rows) };
+        out.attributes.remove(MARK);
+        if mark {
+            let marks = rows.iter().map(|&r| self.reasons[r as usize] & !BEFORE).collect();
+            let added = out.attributes.push(MARK, Values::U8(marks));
+            debug_assert!(added.is_ok(), "as many marks as rows, and no other column of this name");
+        }
+        out
+    }
+}
+
+/// Of `count` places those that are not among the given ascending ones.
+fn all_but(count: usize, places: &[u32]) -> Vec<u32> {
+    without((0..count as u32).collect(), places)
 }
 
 fn count(points: &[Vec3], region: &Region) -> RegionCount {
@@ -160,12 +346,6 @@ fn without(rows: Vec<u32>, places: &[u32]) -> Vec<u32> {
     let mut gone = places.iter().copied().peekable();
     let all = (0..).zip(rows);
     all.filter_map(|(place, row): (u32, u32)| gone.next_if_eq(&place).is_none().then_some(row)).collect()
-}
-
-/// The rows that `choose` picks from the points of `rows`.
-fn refine(points: &[Vec3], rows: Vec<u32>, choose: impl Fn(&[Vec3]) -> Vec<u32>) -> Vec<u32> {
-    let some: Vec<Vec3> = rows.iter().map(|&r| points[r as usize]).collect();
-    choose(&some).into_iter().map(|i| rows[i as usize]).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Crop of a plain binary PLY row by row: shapes test each point separately, so only the kept rows are held, unchanged.
 
-use crate::crop::{Cropped, Rules, ShapeTest};
+use crate::crop::{Cropped, MARK, Rules, ShapeTest};
 use crate::formats::ReadError;
 use crate::units::{self, UnitWarning};
 use geom::Vec3;
@@ -34,8 +34,10 @@ fn positions<R>(blocks: &Blocks<R>) -> Option<(NumberType, usize)> {
 
 /// Whether [`crop_rows`] can do what the rules ask for.
 pub fn can<R>(blocks: &Blocks<R>, rules: &Rules) -> bool {
-    let shapes_alone = rules.outer.shapes.is_empty() && rules.outliers.is_none() && rules.largest.is_none();
-    shapes_alone && positions(blocks).is_some()
+    let shapes_alone =
+        rules.outer.shapes.is_empty() && !rules.measure() && rules.restore.is_empty() && !rules.mark;
+    let marked = blocks.properties.iter().any(|p| p.name == MARK);
+    shapes_alone && !marked && positions(blocks).is_some()
 }
 
 /// The rows that stay; the same as [`crate::crop`] leaves.

@@ -26,6 +26,19 @@ const MARGIN: f64 = 3.0;
 /// A point that is not seen, so near to one that is free, is free as well, in the same: the cells around it reach so far over the rim.
 const BESIDE: f64 = 4.5;
 
+/// A viewpoint, as options give it: `x,y,z` [m].
+///
+/// # Errors
+/// Another text.
+pub fn viewpoint(text: &str) -> Result<Vec3, String> {
+    let wrong = || format!("'{text}' is not x,y,z: give three numbers in m");
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|t| geom::number::finite(t.trim())).collect();
+    match numbers.map_err(|_| wrong())?[..] {
+        [x, y, z] => Ok(Vec3::new(x, y, z)),
+        _ => Err(wrong()),
+    }
+}
+
 /// How a position looks from the viewpoints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sight {

@@ -5,10 +5,13 @@ mod words;
 use anyhow::Context;
 use clap::Parser;
 use cli::Report;
+use cloud::crop::CropError;
 use cloud::crop::Rules;
 use cloud::crop_rows;
+use cloud::ground::Ground;
 use cloud::outliers::Outliers;
-use geom::Shape;
+use cloud::scatter::Scattered;
+use geom::{Shape, Vec3};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -21,6 +24,7 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
     Examples:\n\
     \x20 cloud-crop scan.ply --remove halfspace:0,0,-0.1,0,0,-1 -o cropped.ply\n\
     \x20 cloud-crop scan.ply --outliers 12,3 --largest 0.03 | cloud-fill -o filled.ply\n\
+    \x20 cloud-crop scan.ply --grazing 80 --seen-from 0,0,1.8 --ground 3,0.05 --mark -o marked.ply\n\
     \x20 cloud-crop scan.ply --outer box:-1,-1,-1,1,1,1 --check";
 
 /// Keep or remove points of a cloud by shapes, named regions, outliers and connected parts
@@ -47,14 +51,32 @@ struct Args {
     #[arg(long, value_name = "M", value_parser = not_negative)]
     tolerance: Option<f64>,
     /// Only check for parts beyond the outer shape: write one CSV line for each part to stdout, and no cloud
-    #[arg(long, conflicts_with_all = ["output", "ascii", "outliers", "largest"])]
+    #[arg(long, conflicts_with_all = ["output", "ascii", "outliers", "grazing", "ground", "scattered", "largest", "restore", "mark"])]
     check: bool,
     /// Remove points whose mean distance to K neighbours is more than SIGMA deviations above the mean
     #[arg(long, value_name = "K,SIGMA")]
     outliers: Option<Outliers>,
+    /// Remove points whose surface every scanner sees at more than DEG to its normal: mixed pixels and streaks beside edges
+    #[arg(long, value_name = "DEG", value_parser = grazing)]
+    grazing: Option<f64>,
+    /// Where a scanner stood [m], for --grazing, beside the viewpoints that the scan states (repeat)
+    #[arg(long, value_name = "x,y,z", value_parser = cloud::seen::viewpoint, allow_hyphen_values = true, requires = "grazing")]
+    seen_from: Vec<Vec3>,
+    /// Remove the ground, which need not be flat: nothing on it is wider than WIDTH [m], and points up to HEIGHT [m] from it are ground
+    #[arg(long, value_name = "WIDTH,HEIGHT[,SLOPE]")]
+    ground: Option<Ground>,
+    /// Remove points on no surface, such as leaves: K neighbours have a mean variation of at least SHARE (0 on a plane, 1/3 at most)
+    #[arg(long, value_name = "K,SHARE")]
+    scattered: Option<Scattered>,
     /// Keep only the largest part connected by steps of at most RADIUS [m]
     #[arg(long, value_name = "RADIUS", value_parser = positive)]
     largest: Option<f64>,
+    /// Keep points inside SHAPE that the rules behind the outer shape, or marks, remove (repeat)
+    #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
+    restore: Vec<Shape>,
+    /// Keep all points, and write into the property `removed` why each would go: for dem-view --pick
+    #[arg(long)]
+    mark: bool,
 }
 
 fn main() -> ExitCode {
@@ -72,7 +94,12 @@ fn crop(args: Args) -> anyhow::Result<Report> {
         other => other,
     };
     let cloud = args.input.go_on(opened)?;
-    let (kept, counts) = cloud::crop(&cloud, &rules).with_context(|| args.input.name())?;
+    let (kept, counts) = match cloud::crop(&cloud, &rules) {
+        Err(e @ (CropError::NoViewpoint | CropError::NothingToRestore)) => {
+            return Err(cli::usage(format!("{}: {e}", args.input.name())));
+        }
+        done => done.with_context(|| args.input.name())?,
+    };
     words::warn(&counts);
     let mut report = Report::new(words::summary(&counts)).with_all(&counts);
     report = report.with("tolerance", rules.outer.tolerance);
@@ -107,13 +134,24 @@ fn rules(args: &Args) -> anyhow::Result<Rules> {
         keep: args.keep.clone(),
         remove: args.remove.clone(),
         outliers: args.outliers,
+        grazing: args.grazing,
+        seen_from: args.seen_from.clone(),
+        ground: args.ground,
+        scattered: args.scattered,
         largest: args.largest,
+        restore: args.restore.clone(),
+        mark: args.mark,
         ..Rules::default()
     };
     if let Some(file) = &args.regions {
         let text = stream::whole::text(file).with_context(|| format!("{}: cannot read", file.display()))?;
         let folder = file.parent().unwrap_or(Path::new(""));
         cloud::regions::add_regions(&mut rules, &text, folder).with_context(|| file.display().to_string())?;
+    }
+    if args.mark && rules.removes_nothing() && args.outer.is_empty() {
+        return Err(cli::usage(
+            "--mark: no rule is given, so nothing would be marked: add --ground, --outliers …".to_owned(),
+        ));
     }
     rules.outer.shapes.extend(args.outer.iter().cloned());
     rules.outer.tolerance = args.tolerance.unwrap_or(rules.outer.tolerance);
@@ -143,6 +181,11 @@ fn not_negative(text: &str) -> Result<f64, String> {
 
 fn positive(text: &str) -> Result<f64, String> {
     geom::number::positive(text).map_err(|_| "give a length above 0 in metres".into())
+}
+
+fn grazing(text: &str) -> Result<f64, String> {
+    let degrees = geom::number::positive(text).ok().filter(|d| *d < 90.0);
+    degrees.ok_or_else(|| "give an angle above 0 and below 90 degrees, such as 80".into())
 }
 
 /// Refuses a file name of another format than PLY.

@@ -28,7 +28,19 @@ pub fn warn(counts: &Cropped) {
 
 /// One line.
 pub fn summary(counts: &Cropped) -> String {
-    let kept = format!("{} of {} points kept", counts.points_out, counts.points_in);
+    let mut kept = format!("{} of {} points kept", counts.points_out, counts.points_in);
+    let rules = [
+        (counts.marked_before, "marked before"),
+        (counts.outliers, "outliers"),
+        (counts.grazing, "grazing"),
+        (counts.ground, "ground"),
+        (counts.scattered, "scattered"),
+        (counts.smaller_parts, "in smaller parts"),
+        (counts.restored, "restored"),
+    ];
+    for (k, (count, what)) in rules.iter().filter(|(count, _)| *count > 0).enumerate() {
+        kept += &format!("{} {count} {what}", if k == 0 { ":" } else { "," });
+    }
     match &counts.beyond {
         Some(beyond) if counts.beyond_outer > 0 => {
             let (parts, stray) = (beyond.parts.len(), beyond.stray);

@@ -5,7 +5,7 @@ use clap::Parser;
 use cli::Report;
 use cloud::fill::Settings;
 use cloud::{Mesher, Method};
-use geom::number::{finite, positive};
+use geom::number::positive;
 use geom::{Shape, Vec3};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -42,7 +42,7 @@ struct Args {
     #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
     region: Vec<Shape>,
     /// Where a scanner stood [m] (repeat for more): space that it looked through stays open
-    #[arg(long, value_name = "x,y,z", value_parser = viewpoint, allow_hyphen_values = true)]
+    #[arg(long, value_name = "x,y,z", value_parser = cloud::seen::viewpoint, allow_hyphen_values = true)]
     seen_from: Vec<Vec3>,
     /// Also fill holes between two surfaces, as between an edge and the floor behind it
     #[arg(long, conflicts_with = "seen_from")]
@@ -201,15 +201,6 @@ fn between(report: &cloud::fill::Report) {
         widest.width,
         100.0 * step
     ));
-}
-
-fn viewpoint(text: &str) -> Result<Vec3, String> {
-    let wrong = || format!("'{text}' is not x,y,z: give three numbers in m");
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|t| finite(t.trim())).collect();
-    match numbers.map_err(|_| wrong())?[..] {
-        [x, y, z] => Ok(Vec3::new(x, y, z)),
-        _ => Err(wrong()),
-    }
 }
 
 /// Refuses a file name of another format than PLY.

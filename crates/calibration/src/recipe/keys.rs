@@ -46,7 +46,7 @@ pub(super) struct ParameterKeys {
 #[serde(deny_unknown_fields)]
 pub(super) struct TestKeys {
     pub name: Spanned<String>,
-    pub command: Spanned<String>,
+    pub command: Option<Spanned<String>>,
     pub read: Option<String>,
     pub x: Option<Spanned<String>>,
     pub y: Option<Spanned<String>>,

@@ -40,8 +40,18 @@ pub(super) fn tests(
                 format!("name = \"{name}\": is there twice: give the tests different names"),
             ));
         }
-        blanks_are_known(text, key, parameters)?;
-        tests.push(test(text, key, (files.0, given.get(&k).map(Vec::as_slice)), &mut warnings)?);
+        let command = match (&key.command, tests.last()) {
+            (Some(command), _) => command.get_ref().clone(),
+            (None, Some(before)) => before.command.clone(),
+            (None, None) => {
+                let message = "has no command: the first test needs one; later ones share the command of the test before";
+                return Err(text.refuse(&key.name.span(), message));
+            }
+        };
+        if let Some(own) = &key.command {
+            blanks_are_known(text, own, parameters)?;
+        }
+        tests.push(test(text, (key, command), (files.0, given.get(&k).map(Vec::as_slice)), &mut warnings)?);
     }
     for p in parameters {
         if !tests.iter().any(|t| blanks::names(&t.command).contains(&p.name.as_str())) {
@@ -90,11 +100,11 @@ fn given(data: &GivenData, keys: &[Spanned<TestKeys>]) -> Result<BTreeMap<usize,
     Ok(found)
 }
 
-fn blanks_are_known(text: &Text, key: &TestKeys, parameters: &[Parameter]) -> Result<()> {
-    let command = key.command.get_ref();
+fn blanks_are_known(text: &Text, key: &Spanned<String>, parameters: &[Parameter]) -> Result<()> {
+    let command = key.get_ref();
     if command.trim().is_empty() || command.contains('\0') {
         return Err(text.refuse(
-            &key.command.span(),
+            &key.span(),
             "command: is empty: give a shell line that prints a number or a table",
         ));
     }
@@ -107,14 +117,14 @@ fn blanks_are_known(text: &Text, key: &TestKeys, parameters: &[Parameter]) -> Re
             let message = format!(
                 "command: nothing fills the blank {{{name}}}{hint}; braces of the shell need a blank inside: {{ {name}; }}"
             );
-            Err(text.refuse(&key.command.span(), message))
+            Err(text.refuse(&key.span(), message))
         }
     }
 }
 
 fn test(
     text: &Text,
-    key: &TestKeys,
+    (key, command): (&TestKeys, String),
     files: (&Path, Option<&[PathBuf]>),
     warnings: &mut Vec<String>,
 ) -> Result<Test> {
@@ -163,7 +173,7 @@ fn test(
     }
     Ok(Test {
         name,
-        command: key.command.get_ref().clone(),
+        command,
         read: key.read.clone(),
         x: key.x.as_ref().map(|x| x.get_ref().clone()),
         y: key.y.as_ref().map(|y| y.get_ref().clone()),
