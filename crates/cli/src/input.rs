@@ -192,7 +192,19 @@ impl Input {
     /// As [`Source::open`]; content that is not a cloud.
     pub fn read_cloud(&self) -> anyhow::Result<cloud::Cloud> {
         let cloud = cloud::read(self.open()?).with_context(|| self.name())?;
+        self.warn_of_marks(&cloud);
         Ok(self.in_metres(cloud))
+    }
+
+    /// Warns of points that `cloud-crop --mark` would have removed.
+    fn warn_of_marks(&self, cloud: &cloud::Cloud) {
+        let marks = cloud::crop::marks(cloud).iter().filter(|m| **m != 0).count();
+        if marks > 0 {
+            let name = self.name();
+            crate::warn(&format!(
+                "{name}: {marks} points are marked as removed and are used all the same: cloud-crop removes them"
+            ));
+        }
     }
 
     /// Reads the rest of a cloud whose beginning was looked at.
@@ -211,6 +223,7 @@ impl Input {
     pub fn read_cloud_hashed(&self) -> anyhow::Result<(cloud::Cloud, (String, String))> {
         let mut from = stream::Hashed::new(self.open()?);
         let cloud = cloud::read(&mut from).with_context(|| self.name())?;
+        self.warn_of_marks(&cloud);
         Ok((self.in_metres(cloud), ("cloud".to_owned(), from.sha256())))
     }
 

@@ -4,6 +4,7 @@
 //! points, grazing ones, ground, scattered ones and small parts are removed on request, in this order. What a rule, or an earlier crop that only
 //! marked points, removes inside a `restore` stays all the same.
 
+use crate::grazing;
 use crate::ground::{self, Ground, GroundError};
 use crate::outer::{self, Outer, Outside};
 use crate::points::{TooFar, check_reach};
@@ -101,6 +102,8 @@ pub enum CropError {
         "--restore: nothing is removed that could be restored: no rule is given, and the cloud has no marks (--mark)"
     )]
     NothingToRestore,
+    #[error("--mark: the cloud has a property '{MARK}' that --mark did not write: rename it first")]
+    OtherMarks,
 }
 
 /// What was kept and why not.
@@ -193,6 +196,9 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), CropError>
     let points = &cloud.points;
     let mut report = Cropped { points_in: points.len(), ..Cropped::default() };
     report.regions = rules.regions.iter().map(|region| count(points, region)).collect();
+    if rules.mark && marks(cloud).is_empty() && cloud.attributes.get(MARK).is_some() {
+        return Err(CropError::OtherMarks);
+    }
     let mut sieve = Sieve::new(cloud, rules);
     report.not_finite = sieve.count(|r| r == NOT_FINITE);
     report.outside_shapes = sieve.count(|r| r == Reason::Shape as u8);
@@ -216,7 +222,7 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), CropError>
         if eyes.is_empty() {
             return Err(CropError::NoViewpoint);
         }
-        report.grazing = sieve.keep(Reason::Grazing, |some| scatter::faced(some, &eyes, degrees));
+        report.grazing = sieve.keep(Reason::Grazing, |some| grazing::faced(some, &eyes, degrees));
     }
     if let Some(rule) = &rules.ground {
         let above = sieve.apply(Reason::Ground, |some| match ground::above(some, rule) {
@@ -242,6 +248,14 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), CropError>
     Ok((sieve.cloud(cloud, rules.mark), report))
 }
 
+/// The marks of a cloud ([`MARK`]); empty where it has none.
+pub fn marks(cloud: &Cloud) -> &[u8] {
+    match cloud.attributes.get(MARK) {
+        Some(Values::U8(marks)) => marks,
+        _ => &[],
+    }
+}
+
 /// Why each point goes.
 struct Sieve<'a> {
     points: &'a [Vec3],
@@ -258,10 +272,7 @@ impl<'a> Sieve<'a> {
     /// Shapes, and marks that a cloud has.
     fn new(cloud: &'a Cloud, rules: &Rules) -> Sieve<'a> {
         let judge = ShapeTest::new(rules);
-        let marks = match cloud.attributes.get(MARK) {
-            Some(Values::U8(marks)) => marks.as_slice(),
-            _ => &[],
-        };
+        let marks = marks(cloud);
         let of = |(i, p): (usize, &Vec3)| match marks.get(i) {
             _ if !p.iter().all(|c| c.is_finite()) => NOT_FINITE,
             _ if !judge.stays(p) => Reason::Shape as u8,
@@ -321,7 +332,9 @@ impl<'a> Sieve<'a> {
         let rows: Vec<u32> =
             (0u32..).zip(&self.reasons).filter(|(_, r)| !goes(**r)).map(|(i, _)| i).collect();
         let mut out = if rows.len() == cloud.points.len() { cloud.clone() } else { cloud.select(&rows) };
-        out.attributes.remove(MARK);
+        if !marks(cloud).is_empty() {
+            out.attributes.remove(MARK);
+        }
         if mark {
             let marks = rows.iter().map(|&r| self.reasons[r as usize] & !BEFORE).collect();
             let added = out.attributes.push(MARK, Values::U8(marks));

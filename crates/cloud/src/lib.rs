@@ -11,6 +11,7 @@ mod few;
 pub mod fill;
 pub mod findable;
 pub mod formats;
+pub mod grazing;
 pub mod ground;
 mod holes;
 pub mod largest;

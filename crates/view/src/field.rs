@@ -74,7 +74,7 @@ pub fn is_whole(table: &Table, name: &str) -> bool {
 
 /// Whether the whole numbers of a field are names: neighbouring ones have nothing in common, so each has a separate colour.
 pub fn names_things(name: &str) -> bool {
-    ["id", "body", "cluster", "class", "material", "wall", "region"].contains(&name)
+    ["id", "body", "cluster", "class", "material", "wall", "region", "removed"].contains(&name)
 }
 
 /// The field a person means by another name for it.

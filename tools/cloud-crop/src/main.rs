@@ -65,8 +65,8 @@ struct Args {
     /// Remove the ground, which need not be flat: nothing on it is wider than WIDTH [m], and points up to HEIGHT [m] from it are ground
     #[arg(long, value_name = "WIDTH,HEIGHT[,SLOPE]")]
     ground: Option<Ground>,
-    /// Remove points on no surface, such as leaves: K neighbours have a mean variation of at least SHARE (0 on a plane, 1/3 at most)
-    #[arg(long, value_name = "K,SHARE")]
+    /// Remove points on no surface, such as leaves: within RADIUS [m] the mean variation is at least SHARE (0 on a plane, 1/3 at most)
+    #[arg(long, value_name = "RADIUS,SHARE")]
     scattered: Option<Scattered>,
     /// Keep only the largest part connected by steps of at most RADIUS [m]
     #[arg(long, value_name = "RADIUS", value_parser = positive)]

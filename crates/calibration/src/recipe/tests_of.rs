@@ -103,10 +103,9 @@ fn given(data: &GivenData, keys: &[Spanned<TestKeys>]) -> Result<BTreeMap<usize,
 fn blanks_are_known(text: &Text, key: &Spanned<String>, parameters: &[Parameter]) -> Result<()> {
     let command = key.get_ref();
     if command.trim().is_empty() || command.contains('\0') {
-        return Err(text.refuse(
-            &key.span(),
-            "command: is empty: give a shell line that prints a number or a table",
-        ));
+        return Err(
+            text.refuse(&key.span(), "command: is empty: give a shell line that prints a number or a table")
+        );
     }
     let known = || parameters.iter().map(|p| p.name.as_str()).chain(OWN_BLANKS);
     match blanks::names(command).into_iter().find(|name| !known().any(|k| k == *name)) {

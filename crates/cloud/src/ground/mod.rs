@@ -25,7 +25,7 @@ const POINTS: f64 = 4.0;
 const SPARSE: f64 = 0.2;
 /// Most cells for each point.
 const MOST: f64 = 16.0;
-/// A window is at least so many cells wide, or nothing could be told from the ground.
+/// A window is at least so many cells wide: what is narrower looks like the ground.
 const FEWEST: f64 = 3.0;
 /// Steepest ground where none is given [–].
 const SLOPE: f64 = 0.3;

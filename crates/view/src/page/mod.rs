@@ -206,7 +206,7 @@ impl Page {
             layer.fields = new_fields(table, all_fields, sized, self.options.colour.as_deref());
             layer.point_radius =
                 if spheres.sized { 0.0 } else { spheres.radius.first().copied().unwrap_or(0.0) };
-            layer.exact = self.options.pick.as_ref().map(|_| Exact::of(&spheres.centre));
+            layer.exact = self.options.pick.as_ref().map(|_| Exact::of(&spheres.centre, table));
         }
         if moving && spheres.sized {
             self.sizes.add(spheres.radius.iter().map(|r| 2.0 * r));

@@ -1,5 +1,6 @@
 // Regions that the operator draws over a cloud in a view along an axis, and the options of `cloud-crop` that drop what they
-// mark. A box is two corners; a polygon becomes a prism along the view, in a file.
+// mark. A box is two corners; a polygon becomes a prism along the view, in a file. Points that `cloud-crop --mark` has marked are dropped, too,
+// unless a region restores them.
 const regions = {
   list: [], drawing: null, count: 0, dropped: 0,
 
@@ -9,6 +10,8 @@ const regions = {
     const raw = fromBase64(byId("b" + number).textContent);
     this.points = width === 4 ? new Float32Array(raw.buffer) : new Float64Array(raw.buffer);
     this.marks = new Uint8Array(this.points.length / 3);
+    const before = run.layers[this.layer].marks;
+    this.before = before === null ? null : fromBase64(byId("b" + before).textContent);
     [this.lo, this.hi] = this.extent();
     const size = Math.max(1e-9, ...this.hi.map((h, k) => h - this.lo[k]));
     // Corners in round numbers: a ten-thousandth of the size is finer than a hand can point.
@@ -124,7 +127,7 @@ const regions = {
     const across = [0, 1, 2].filter((k) => k !== axis);
     const large = tool === "box" ? to && across.every((k) => corners[0][k] !== to[k]) : corners.length > 2;
     const region = {
-      kind: tool === "box" ? "box" : "prism", action: "remove", axis, inside: 0, ends: [corners[0], to], corners,
+      kind: tool === "box" ? "box" : "prism", action: this.before ? "restore" : "remove", axis, inside: 0, ends: [corners[0], to], corners,
       from: this.round(this.lo[axis] - this.margin), until: this.round(this.hi[axis] + this.margin),
     };
     if (!large || !this.shape(region)) {
@@ -153,21 +156,24 @@ const regions = {
     return region.has !== null;
   },
 
-  // Marks what `cloud-crop` will drop: what is in no region to keep, where there are any, or in one to remove.
+  // Marks what `cloud-crop` will drop: what is in no region to keep, where there are any, or in one to remove, or was marked and is in none to
+  // restore.
   mark() {
     const keeping = this.list.some((r) => r.action === "keep");
     this.list.forEach((r) => { r.inside = 0; });
     this.dropped = 0;
     const p = this.points;
     for (let i = 0; i < this.marks.length; i++) {
-      let [kept, gone] = [!keeping, false];
+      let [kept, gone, marked] = [!keeping, false, this.before !== null && this.before[i] > 0];
       for (const region of this.list) {
         if (!region.has(p[3 * i], p[3 * i + 1], p[3 * i + 2])) continue;
         region.inside++;
-        if (region.action === "keep") kept = true; else gone = true;
+        if (region.action === "keep") kept = true;
+        else if (region.action === "restore") marked = false;
+        else gone = true;
       }
-      this.marks[i] = gone || !kept ? 255 : 0;
-      this.dropped += gone || !kept;
+      this.marks[i] = gone || marked || !kept ? 255 : 0;
+      this.dropped += this.marks[i] > 0;
     }
     painter.layers[this.layer].mark(this.marks);
   },
@@ -207,7 +213,7 @@ const regions = {
   show(hint, copied) {
     const { drawing } = this;
     const hints = { polygon: "click the corners; close with Enter or at the first one. Backspace takes one back,", box: "drag from corner to corner." };
-    const still = "Choose a side, then draw. What will be dropped is red.";
+    const still = this.before ? "Red points are marked: cloud-crop drops them, also without options. Choose a side, then draw what to restore." : "Choose a side, then draw. What will be dropped is red.";
     byId("hint").textContent = hint || (drawing ? `Seen from the ${drawing.name}: ${hints[drawing.tool]} Esc stops.` : this.list.length ? "" : still);
     for (const tool of ["polygon", "box"]) byId(tool).setAttribute("aria-pressed", drawing?.tool === tool);
     camera.rests = drawing !== null;
@@ -228,7 +234,7 @@ const regions = {
   row(region) {
     const item = element("li");
     const action = element("select");
-    action.append(new Option("remove"), new Option("keep"));
+    action.append(...["remove", "keep", ...(this.before ? ["restore"] : [])].map((name) => new Option(name)));
     action.value = region.action;
     action.setAttribute("aria-label", "What to do with it");
     action.onchange = () => { region.action = action.value; this.changed(); };

@@ -257,6 +257,7 @@ fn layer<'a>(layer: &'a PageLayer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> V
         "kinds": layer.kinds,
         "pointRadius": layer.point_radius,
         "exact": layer.exact.as_ref().map(|e| json!([blobs.number(&e.bytes), e.width])),
+        "marks": layer.exact.as_ref().and_then(|e| e.marks.as_ref()).map(|marks| blobs.number(marks)),
         "motion": panes::motion(&layer.motion),
         "arrows": layer.arrow_key().map(|key| arrow_json(&key)),
         "fields": fields.chain(axes).collect::<Vec<_>>(),

@@ -21,6 +21,12 @@ const REFUSED: &[(&str, &str)] = &[
         "cloud-fill flat.xyz --fill grid --seed 3",
         "--seed: --fill grid leaves nothing to chance: leave it out",
     ),
+    ("cloud-crop flat.xyz --mark", "--mark: no rule is given, so nothing would be marked"),
+    (
+        "cloud-crop flat.xyz --restore box:0,0,0,1,1,1",
+        "flat.xyz: --restore: nothing is removed that could be restored",
+    ),
+    ("cloud-crop flat.xyz --grazing 75", "flat.xyz: --grazing: the cloud states no viewpoint"),
     ("dem-view flat.xyz -o v.html --fps 10", "--fps changes nothing in .html: it is for .gif, .mp4:"),
     ("dem-view flat.xyz -o v.html --size 96x64", "--size changes nothing in .html"),
     ("dem-view flat.xyz -o v.html --cut", "--cut changes nothing in .html"),

@@ -45,6 +45,11 @@ fn cloud(folder: &Path) {
 /// The page of the cloud, opened.
 fn drawing(program: &Path, folder: &Path) -> Chromium {
     cloud(folder);
+    opened(program, folder)
+}
+
+/// The page of what is there.
+fn opened(program: &Path, folder: &Path) -> Chromium {
     succeed(folder, "dem-view", &["a scan.ply", "--pick", "-o", "pick.html"]);
     let mut browser = Chromium::start(program, &[]);
     browser.window(1000, 700, false);
@@ -119,6 +124,31 @@ fn cloud_crop_drops_exactly_what_the_page_marks() {
     // To keep one and to remove the other.
     browser.value("(() => { const s = document.querySelectorAll('#regions select')[1]; s.value = 'keep'; s.onchange(); })()");
     assert!(drops_what_is_marked(&mut browser, folder.path()) > both);
+    browser.assert_calm();
+}
+
+/// What a rule has marked is red from the start; what is drawn over it comes back.
+#[test]
+fn marks_are_shown_and_restored() {
+    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    cloud(folder);
+    let largest = ["a scan.ply", "--largest", "0.1", "--mark", "-o", "marked.ply", "--report", "marked.json"];
+    succeed(folder, "cloud-crop", &largest);
+    std::fs::rename(folder.join("marked.ply"), folder.join("a scan.ply")).expect("renamed");
+    let mut browser = opened(&program, folder);
+    let before = drops_what_is_marked(&mut browser, folder);
+    assert_eq!(browser.value("byId('command').hidden"), json!(true));
+    browser.value("[...byId('sides').children].find((b) => b.textContent === 'top').click()");
+    browser.value("byId('box').click()");
+    browser.drag([520.0, 300.0], [640.0, 420.0]);
+    assert!(browser.text("byId('options').value").starts_with("--restore box:"));
+    let less = drops_what_is_marked(&mut browser, folder);
+    assert!(less < before, "{less} of {before}");
+    // To remove all in the box instead: more goes than was marked.
+    browser.value("(() => { const s = document.querySelector('#regions select'); s.value = 'remove'; s.onchange(); })()");
+    assert!(drops_what_is_marked(&mut browser, folder) > before);
     browser.assert_calm();
 }
 

@@ -1,0 +1,261 @@
+//! Rules of removal on a scan whose every point has a label: a scanner looks at a floor with a swell, a box, a post, a wall and a bush, and the
+//! beam has a width, so that it mixes what lies beside an edge.
+
+mod random;
+
+use cloud::Cloud;
+use cloud::crop::{CropError, MARK, Reason, Rules, crop, marks};
+use geom::{Shape, Vec3};
+use random::Random;
+use stream::{Table, Values};
+
+/// Where the scanner stands [m].
+const EYE: Vec3 = Vec3::new(0.0, 0.0, 1.8);
+/// Angle between two beams [rad].
+const STEP: f64 = 0.004;
+/// Radius of a beam [rad].
+const BEAM: f64 = 0.003;
+/// Sub-beams of a beam, beside that in its middle.
+const SUB: usize = 8;
+/// A point that is farther from all that its beam has met is mixed [m].
+const APART: f64 = 0.05;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Label {
+    Floor,
+    Box,
+    Post,
+    Wall,
+    Bush,
+    Mixed,
+}
+
+fn floor(x: f64, y: f64) -> f64 {
+    0.12 * (0.9 * x).sin() * (0.7 * y).cos()
+}
+
+/// Range of the first thing that a line of sight meets [m], and what it is.
+fn hit(to: &Vec3) -> Option<(f64, Label)> {
+    let mut best: Option<(f64, Label)> = None;
+    let mut meet = |range: f64, label: Label| {
+        if range > 0.1 && best.is_none_or(|(r, _)| range < r) {
+            best = Some((range, label));
+        }
+    };
+    // The floor: from above it to below it.
+    let above = |range: f64| {
+        let p = EYE + to * range;
+        p.z - floor(p.x, p.y)
+    };
+    if to.z < -0.05 {
+        let (mut near, mut far) = (0.0, 2.2 / -to.z);
+        for _ in 0..40 {
+            let middle = 0.5 * (near + far);
+            if above(middle) > 0.0 { near = middle } else { far = middle }
+        }
+        meet(near, Label::Floor);
+    }
+    // A box, by its slabs.
+    let (low, high) = (Vec3::new(1.8, -0.6, -1.0), Vec3::new(2.8, 0.5, 0.9));
+    let [mut from, mut until] = [0.0f64, f64::INFINITY];
+    for a in 0..3 {
+        let ends = [(low[a] - EYE[a]) / to[a], (high[a] - EYE[a]) / to[a]];
+        from = from.max(ends[0].min(ends[1]));
+        until = until.min(ends[0].max(ends[1]));
+    }
+    if from < until {
+        meet(from, Label::Box);
+    }
+    // A post.
+    let (dx, dy) = (EYE.x - 1.4, EYE.y - 1.5);
+    let (a, b, c) = (to.x * to.x + to.y * to.y, dx * to.x + dy * to.y, dx * dx + dy * dy - 0.0225);
+    if b * b > a * c {
+        let range = (-b - (b * b - a * c).sqrt()) / a;
+        if (EYE + to * range).z < 1.5 {
+            meet(range, Label::Post);
+        }
+    }
+    // A wall behind all.
+    let range = (4.0 - EYE.x) / to.x;
+    if range > 0.0 && (EYE + to * range).z < 2.5 {
+        meet(range, Label::Wall);
+    }
+    best
+}
+
+/// The scan, with its labels.
+fn scan() -> (Vec<Vec3>, Vec<Label>) {
+    let mut random = Random(7);
+    let (mut points, mut labels) = (Vec::new(), Vec::new());
+    let direction = |azimuth: f64, height: f64| {
+        Vec3::new(azimuth.cos() * height.cos(), azimuth.sin() * height.cos(), height.sin())
+    };
+    let count = |span: f64| (span / STEP) as usize;
+    for i in 0..count(2.0) {
+        for j in 0..count(1.5) {
+            let (azimuth, height) = (-0.8 + STEP * i as f64, -1.2 + STEP * j as f64);
+            let mut met = Vec::new();
+            for k in 0..=SUB {
+                let turn = std::f64::consts::TAU * k as f64 / SUB as f64;
+                let off = if k == SUB { 0.0 } else { BEAM * (0.5 + 0.5 * (k % 2) as f64) };
+                met.extend(hit(&direction(azimuth + off * turn.cos(), height + off * turn.sin())));
+            }
+            let Some(&(_, label)) = met.last() else { continue };
+            let ranges = || met.iter().map(|(range, _)| *range);
+            let mean = ranges().sum::<f64>() / met.len() as f64;
+            let off = ranges().map(|range| (range - mean).abs()).fold(f64::INFINITY, f64::min);
+            points.push(EYE + direction(azimuth, height) * (mean + 0.001 * random.normal()));
+            labels.push(if off > APART { Label::Mixed } else { label });
+        }
+    }
+    for _ in 0..4000 {
+        let p = Vec3::new(random.next(), random.next(), random.next());
+        if (p - Vec3::repeat(0.5)).norm() < 0.5 {
+            points.push(Vec3::new(2.9, 1.4, 0.3) + 0.6 * p);
+            labels.push(Label::Bush);
+        }
+    }
+    (points, labels)
+}
+
+fn of_points(points: Vec<Vec3>) -> Cloud {
+    Cloud { attributes: Table::with_rows(points.len()), points, ..Cloud::default() }
+}
+
+/// What rules remove: share of the points with each label.
+fn removed(points: &[Vec3], labels: &[Label], rules: &Rules) -> impl Fn(Label) -> f64 {
+    let cloud = Cloud {
+        points: points.to_vec(),
+        attributes: stream::Table::with_rows(points.len()),
+        ..Cloud::default()
+    };
+    let (marked, counts) = crop(&cloud, &Rules { mark: true, ..rules.clone() }).unwrap();
+    let marks = marks(&marked);
+    assert_eq!(marks.iter().filter(|m| **m == 0).count(), counts.points_out);
+    let pairs: Vec<(Label, u8)> = labels.iter().copied().zip(marks.iter().copied()).collect();
+    move |label| {
+        let of = || pairs.iter().filter(|(l, _)| *l == label);
+        of().filter(|(_, mark)| *mark != 0).count() as f64 / of().count() as f64
+    }
+}
+
+const ALL: [Label; 6] = [Label::Floor, Label::Box, Label::Post, Label::Wall, Label::Bush, Label::Mixed];
+
+#[test]
+fn each_rule_removes_what_it_is_for() {
+    let (points, labels) = scan();
+    let of = |rules: Rules| {
+        let shares = ALL.map(removed(&points, &labels, &rules));
+        println!("{ALL:?} of {}: {shares:.4?}", points.len());
+        shares
+    };
+    let [floor, solid @ .., bush, _] =
+        of(Rules { ground: Some("1.5,0.05".parse().unwrap()), ..Rules::default() });
+    assert!(floor > 0.99 && solid.iter().all(|s| *s < 0.05) && bush < 0.01);
+    let [floor, solid @ .., _, mixed] =
+        of(Rules { grazing: Some(75.0), seen_from: vec![EYE], ..Rules::default() });
+    assert!(mixed > 0.99 && floor < 0.001 && solid.iter().all(|s| *s < 0.005));
+    let [floor, solid @ .., bush, _] =
+        of(Rules { scattered: Some("0.1,0.1".parse().unwrap()), ..Rules::default() });
+    assert!(bush > 0.95 && floor < 0.01 && solid.iter().all(|s| *s < 0.02));
+}
+
+/// A point that one of two scanners sees well stays, and points of the other scan behind a surface make no mixed pixels of it.
+#[test]
+fn merged_scans_keep_what_one_scanner_sees() {
+    let mut random = Random(3);
+    let mut on = |x: f64| -> Vec<Vec3> {
+        (0..20_000).map(|_| Vec3::new(x, 2.0 * random.next() - 1.0, 2.0 * random.next() - 1.0)).collect()
+    };
+    // Two walls, each seen from its side alone; and from the edge both are grazing.
+    let points = [on(2.0), on(2.5)].concat();
+    let cloud = of_points(points);
+    let left = |eyes: &[[f64; 3]]| {
+        let seen_from = eyes.iter().map(|e| Vec3::from(*e)).collect();
+        crop(&cloud, &Rules { grazing: Some(75.0), seen_from, ..Rules::default() }).unwrap().1.points_out
+    };
+    assert_eq!(left(&[[0.0, 0.0, 0.0], [4.5, 0.0, 0.0]]), 40_000);
+    let edgewise = left(&[[2.0, 40.0, 0.0]]);
+    assert!(edgewise < 10_000, "{edgewise}");
+    assert_eq!(left(&[[2.0, 40.0, 0.0], [0.0, 0.0, 0.0]]), 40_000);
+}
+
+/// Ground rises by up to its slope, a step higher than that ends it, and a pit or a point far away changes nothing else.
+#[test]
+fn ground_follows_slopes() {
+    let mut random = Random(5);
+    let mut points: Vec<Vec3> = (0..40_000)
+        .map(|_| {
+            let (x, y) = (10.0 * random.next(), 10.0 * random.next());
+            Vec3::new(x, y, 0.25 * x + 0.1 * (2.0 * y).sin() + 0.005 * random.normal())
+        })
+        .collect();
+    let on_ground = points.len();
+    points.extend(
+        (0..4000).map(|_| Vec3::new(4.0 + random.next(), 5.0 + random.next(), 3.0 + 0.3 * random.next())),
+    );
+    let equipment = points.len();
+    points.extend([Vec3::new(7.0, 2.0, -4.0), Vec3::new(2.0, 2.0, 60.0)]);
+    let above = |rule: &str| cloud::ground::above(&points, &rule.parse().unwrap()).unwrap();
+    let rows = above("2,0.05");
+    assert_eq!(rows.iter().filter(|r| (on_ground..equipment).contains(&(**r as usize))).count(), 4000);
+    assert!(rows.contains(&(equipment as u32)) && rows.contains(&(equipment as u32 + 1)));
+    let lost = rows.iter().filter(|r| (**r as usize) < on_ground).count();
+    assert!(lost < 400, "{lost}");
+    // A ridge stands on the ground if that is less steep.
+    let ridge: Vec<Vec3> =
+        points[..on_ground].iter().map(|p| Vec3::new(p.x, p.y, -0.5 * (p.x - 5.0).abs())).collect();
+    let of_ridge = |rule: &str| cloud::ground::above(&ridge, &rule.parse().unwrap()).unwrap().len();
+    let [gentle, steep] = ["4,0.02,0.01", "4,0.02,0.5"].map(of_ridge);
+    assert!(steep < 400 && gentle > 4_000, "{steep} {gentle}");
+    let refused = cloud::ground::above(&points, &"0.1,0.05".parse().unwrap()).unwrap_err().to_string();
+    assert!(refused.contains("fewer than 3 cells"), "{refused}");
+}
+
+/// Marks say why; a later crop applies them, and restores or removes what shapes ask for.
+#[test]
+fn marks_are_applied_and_restored() {
+    let mut points: Vec<Vec3> =
+        (0..900).map(|i| Vec3::new(f64::from(i % 30), f64::from(i / 30), 0.0)).collect();
+    points.extend([Vec3::new(5.0, 5.0, 40.0), Vec3::new(25.0, 5.0, 40.0), Vec3::new(f64::NAN, 0.0, 0.0)]);
+    let cloud = of_points(points);
+    let shapes = |text: &str| vec![text.parse::<Shape>().unwrap()];
+    let first = Rules {
+        remove: shapes("sphere:0,0,0,0.5"),
+        outliers: Some("4,12".parse().unwrap()),
+        mark: true,
+        ..Rules::default()
+    };
+    let (marked, counts) = crop(&cloud, &first).unwrap();
+    assert_eq!(
+        (counts.outside_shapes, counts.outliers, counts.points_out, marked.points.len()),
+        (1, 2, 899, 902)
+    );
+    let wanted = [(0, Reason::Shape), (900, Reason::Outlier), (901, Reason::Outlier)];
+    for (row, reason) in wanted {
+        assert_eq!(marks(&marked)[row], reason as u8);
+    }
+    let (applied, counts) = crop(&marked, &Rules::default()).unwrap();
+    assert_eq!((applied.points.len(), counts.marked_before), (899, 3));
+    assert!(applied.attributes.get(MARK).is_none());
+    assert_eq!(applied, crop(&cloud, &Rules { mark: false, ..first.clone() }).unwrap().0);
+    // One stray point and the corner come back; a shape to remove wins.
+    let again = Rules { restore: shapes("box:-1,-1,-1,10,10,50"), ..Rules::default() };
+    let (_, counts) = crop(&marked, &again).unwrap();
+    assert_eq!((counts.restored, counts.points_out), (2, 901));
+    let both = Rules { remove: shapes("sphere:5,5,40,1"), ..again.clone() };
+    assert_eq!(crop(&marked, &both).unwrap().1.restored, 1);
+    // Marked again, reasons stay.
+    let (twice, _) =
+        crop(&marked, &Rules { mark: true, remove: shapes("sphere:9,9,0,0.5"), ..Rules::default() }).unwrap();
+    assert_eq!((marks(&twice)[900], marks(&twice)[279]), (Reason::Outlier as u8, Reason::Shape as u8));
+    assert_eq!(crop(&cloud, &again), Err(CropError::NothingToRestore));
+    let no_eye = Rules { grazing: Some(75.0), ..Rules::default() };
+    assert_eq!(crop(&cloud, &no_eye), Err(CropError::NoViewpoint));
+    // Another tool's column of this name is no mark.
+    let mut other = cloud.clone();
+    other.attributes.push(MARK, Values::F32(vec![1.0; 903])).unwrap();
+    let (kept, counts) = crop(&other, &Rules::default()).unwrap();
+    assert_eq!((counts.points_out, kept.attributes.get(MARK).is_some()), (902, true));
+    assert_eq!(crop(&other, &first), Err(CropError::OtherMarks));
+}
