@@ -1,9 +1,9 @@
 //! What a scanner saw: the space in front of what it measured is free.
 //!
 //! ```text
-//! directions   from the viewpoint, in the cells of a cube's faces: about four points for each cell that holds some
+//! directions   from the viewpoint, in the cells of a cube's faces: about as many cells that hold points as there are points
 //! free         every measured point in the cell of a direction, and in the eight around it, is farther than the position, by a margin
-//! shadow       not free, and some point in the cell is nearer than the position
+//! shadow       not free, and some point in the cell is nearer than the position; where it holds none, all points in the cells around it
 //! unseen       neither: no point was measured in the cell, or it lies beside one
 //! ```
 //!
@@ -17,7 +17,7 @@ use geom::{Grid, Vec3};
 use serde::Serialize;
 
 /// Points for each cell that holds some.
-const POINTS: f64 = 4.0;
+const POINTS: f64 = 1.0;
 /// Most cells along an edge of the cube.
 const MOST: f64 = 2048.0;
 
@@ -166,23 +166,28 @@ impl View {
         let off = p - self.eye;
         let range = off.norm();
         let Some(own) = self.cell(&off) else { return Sight::Free };
-        let nearest = f64::from(self.nearest[own]);
-        if !nearest.is_finite() {
-            return Sight::Unseen;
-        }
-        if nearest < range - margin {
-            return Sight::Shadow;
-        }
         // The directions around are those of steps of a cell along the face, over its border as well.
         let axis = off.iamax();
         let step = 2.0 * off[axis].abs() / self.side as f64;
-        let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| (f64::from(i), f64::from(j))));
-        let is_behind = |(i, j): (f64, f64)| {
+        let around = [0, 1, 2, 3, 4, 5, 6, 7, 8].map(|k| {
             let mut to = off;
-            to[(axis + 1) % 3] += i * step;
-            to[(axis + 2) % 3] += j * step;
-            self.cell(&to).is_none_or(|cell| f64::from(self.nearest[cell]) > range + margin)
-        };
-        if around.into_iter().all(is_behind) { Sight::Free } else { Sight::Unseen }
+            to[(axis + 1) % 3] += f64::from(k / 3 - 1) * step;
+            to[(axis + 2) % 3] += f64::from(k % 3 - 1) * step;
+            self.cell(&to).map_or(f64::INFINITY, |cell| f64::from(self.nearest[cell]))
+        });
+        let own = f64::from(self.nearest[own]);
+        let in_front = |nearest: f64| nearest < range - margin;
+        let mut known = around.iter().filter(|n| n.is_finite()).peekable();
+        if own.is_finite() {
+            match around.iter().all(|n| *n > range + margin) {
+                _ if in_front(own) => Sight::Shadow,
+                true => Sight::Free,
+                false => Sight::Unseen,
+            }
+        } else if known.peek().is_some() && known.all(|n| in_front(*n)) {
+            Sight::Shadow
+        } else {
+            Sight::Unseen
+        }
     }
 }

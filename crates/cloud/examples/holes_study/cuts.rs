@@ -33,6 +33,25 @@ pub struct Score {
     pub found: bool,
     /// Squares of the distances of the added points from the surface, in local spacings, and their number.
     pub squares: (f64, usize),
+    /// Hausdorff distance of the added points and those that were cut, in local spacings.
+    pub hausdorff: f64,
+}
+
+impl Score {
+    /// Of the points that were put into a hole.
+    pub fn of(body: Body, cut: &Cut, inside: &[Vec3], found: bool) -> Score {
+        let off = |p: &Vec3| body.off(p).unwrap_or_else(|| off_scan(cut, p)) / cut.spacing;
+        let squares = inside.iter().map(|p| off(p).powi(2)).sum();
+        let nearest = |of: &[Vec3], p: &Vec3| of.iter().map(|q| (q - p).norm()).fold(f64::INFINITY, f64::min);
+        let farthest = |of: &[Vec3], to: &[Vec3]| of.iter().map(|p| nearest(to, p)).fold(0.0, f64::max);
+        let hausdorff = farthest(&cut.points, inside).max(farthest(inside, &cut.points)) / cut.spacing;
+        Score { size: 2.0 * cut.radius / cut.spacing, found, squares: (squares, inside.len()), hausdorff }
+    }
+
+    /// Root mean square distance from the surface, in local spacings; none without points.
+    pub fn rms(&self) -> Option<f64> {
+        (self.squares.1 > 0).then(|| (self.squares.0 / self.squares.1 as f64).sqrt())
+    }
 }
 
 /// How one cloud was filled.
@@ -145,11 +164,9 @@ pub fn outcome(body: Body, points: Vec<Vec3>, cuts: &[Cut], own: &[(Vec3, f64)])
             let close = (centre(h) - cut.centre).norm() < cut.radius.max(2.0 * cut.spacing);
             close && h.width > 0.5 * cut.radius && h.added > 0
         });
-        let inside = added.iter().filter(|p| (*p - cut.centre).norm() < cut.radius);
-        let off = |p: &Vec3| body.off(p).unwrap_or_else(|| off_scan(cut, p)) / cut.spacing;
-        let squares: Vec<f64> = inside.map(|p| off(p).powi(2)).collect();
-        let squares = (squares.iter().sum(), squares.len());
-        Score { size: 2.0 * cut.radius / cut.spacing, found, squares }
+        let inside: Vec<Vec3> =
+            added.iter().filter(|p| (*p - cut.centre).norm() < cut.radius).copied().collect();
+        Score::of(body, cut, &inside, found)
     };
     let is_false = |h: &&cloud::fill::HoleReport| {
         let of_cut = |c: &Cut| (centre(h) - c.centre).norm() < c.radius + 4.0 * c.spacing + 0.5 * h.width;

@@ -5,7 +5,13 @@
 
 mod bodies;
 mod cuts;
+mod looks;
 mod page;
+mod peers;
+#[path = "../../tests/random/mod.rs"]
+mod random;
+#[path = "../../tests/scanner/mod.rs"]
+mod scanner;
 
 use bodies::{BODIES, Body};
 use geom::Vec3;
@@ -20,6 +26,7 @@ fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let outcome = match words.as_slice() {
         [folder] => rows(Path::new(folder), false).map(|rows| print!("{}", page::table(&rows))),
+        [_, part] if part == "--seen" => looks::table().map(|table| print!("{table}")),
         [folder, file] => study(Path::new(folder), Path::new(file)),
         _ => {
             eprintln!("holes_study: usage: holes_study CLOUDS [PAGE.md]");
@@ -39,7 +46,13 @@ fn study(folder: &Path, file: &Path) -> Result<(), String> {
     let held_out = rows(folder, true)?;
     let tuning = rows(folder, false)?;
     let sums = [page::sum("all of these", &held_out), page::sum("the cuts of tuning", &tuning)];
-    page::write(file, &held_out, &sums)
+    page::write(file, &held_out, &sums)?;
+    page::replace(file, "holes-seen", &looks::table()?)?;
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../pipelines/peers/cloud-fill-peers.py");
+    match peers::table(folder, &script, SETS.1)? {
+        Some(table) => page::replace(file, "holes-peers", &table),
+        None => Ok(()),
+    }
 }
 
 fn rows(folder: &Path, held_out: bool) -> Result<Vec<Row>, String> {

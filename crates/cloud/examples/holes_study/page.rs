@@ -9,8 +9,6 @@ use std::path::Path;
 const COLUMNS: [f64; 6] = [3.0, 6.0, 8.0, 12.0, 25.0, 61.0];
 /// The same of the picture.
 const SIZES: [f64; 9] = [3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 12.0, 25.0, 61.0];
-/// Where the table is in the page.
-const PART: [&str; 2] = ["<!-- holes-study begins -->", "<!-- holes-study ends -->"];
 
 /// A row of the table.
 pub struct Row {
@@ -42,13 +40,14 @@ impl Row {
         let sum = |a: (f64, usize), s: &Score| (a.0 + s.squares.0, a.1 + s.squares.1);
         let (squares, added) = self.scores().filter(|s| s.found).fold((0.0, 0), sum);
         format!(
-            "| {} | {} | {:.1} % | {:.2} | {} | {:.2} | {:.1} |\n",
+            "| {} | {} | {:.1} % | {:.2} | {} | {:.2} | {:.1} | {:.1} |\n",
             self.name,
             columns.join(" | "),
             100.0 * found as f64 / all.max(1) as f64,
             1e5 * false_finds as f64 / points.max(1) as f64,
             if matches!(self.body, Some(Body::Scan(_))) { self.own.to_string() } else { "–".to_owned() },
             (squares / added.max(1) as f64).sqrt(),
+            median(self.scores().filter(|s| s.found).map(|s| s.hausdorff)),
             1e6 * seconds / points.max(1) as f64,
         )
     }
@@ -62,9 +61,29 @@ pub fn sum(name: &str, rows: &[Row]) -> Row {
 
 pub fn table<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
     let head = "| cut out of | found: 3–6 spacings wide | 6–8 | 8–12 | 12–25 | 25–60 | 8 and more | false per 10⁵ points | own holes | RMS [spacings] | \
-                time [µs/point] |\n";
+                Hausdorff, median [spacings] | time [µs/point] |\n";
     let lines: String = rows.into_iter().map(Row::line).collect();
-    format!("{head}|{}\n{lines}", "---|".repeat(11))
+    format!("{head}|{}\n{lines}", "---|".repeat(12))
+}
+
+/// The median of some numbers.
+pub fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// Puts a table into its part of the page.
+///
+/// # Errors
+/// A file that cannot be read or written, or has no such part.
+pub fn replace(page: &Path, part: &str, table: &str) -> Result<(), String> {
+    let name = |why: &dyn std::fmt::Display| format!("{}: {why}", page.display());
+    let text = std::fs::read_to_string(page).map_err(|why| name(&why))?;
+    let [begins, ends] = ["begins", "ends"].map(|which| format!("<!-- {part} {which} -->"));
+    let cut = text.split_once(&begins).and_then(|(before, rest)| Some((before, rest.split_once(&ends)?.1)));
+    let (before, after) = cut.ok_or_else(|| name(&format!("the lines {begins} and {ends} are missing")))?;
+    std::fs::write(page, format!("{before}{begins}\n{table}{ends}{after}")).map_err(|why| name(&why))
 }
 
 /// Puts the table into its part of the page, and the picture beside it.
@@ -72,13 +91,7 @@ pub fn table<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
 /// # Errors
 /// A file that cannot be read or written, or has no such part.
 pub fn write(page: &Path, rows: &[Row], sums: &[Row]) -> Result<(), String> {
-    let name = |why: &dyn std::fmt::Display| format!("{}: {why}", page.display());
-    let text = std::fs::read_to_string(page).map_err(|why| name(&why))?;
-    let cut = text.split_once(PART[0]).and_then(|(before, rest)| Some((before, rest.split_once(PART[1])?.1)));
-    let (before, after) =
-        cut.ok_or_else(|| name(&format!("the lines {} and {} are missing", PART[0], PART[1])))?;
-    let text = format!("{before}{}\n{}{}{after}", PART[0], table(rows.iter().chain(sums)), PART[1]);
-    std::fs::write(page, text).map_err(|why| name(&why))?;
+    replace(page, "holes-study", &table(rows.iter().chain(sums)))?;
     let svg = page.with_file_name("filling-holes.svg");
     let (plots, layout) = picture(rows);
     let picture = plot::diagram(&svg, plots, layout).map_err(|why| why.to_string())?;
