@@ -81,9 +81,10 @@ const painter = {
     const short = Math.min(width, height);
     const eye = camera.eye();
     const centre = Math.hypot(...eye);
-    const near = camera.flat ? centre - 4 * halfDiagonal - camera.distance : Math.max(1e-4 * camera.distance, centre - 4 * halfDiagonal);
+    const reach = Math.max(4 * halfDiagonal, 1.01 * reachOfAll);
+    const near = camera.flat ? centre - reach - camera.distance : Math.max(1e-4 * camera.distance, centre - reach);
     const focal = camera.flat ? short / (2 * halfView * camera.distance) : short / (2 * halfView);
-    return { eye, focal, nearFar: [near, centre + 4 * halfDiagonal], clip: [2 * focal / width, 2 * focal / height] };
+    return { eye, focal, nearFar: [near, centre + reach], clip: [2 * focal / width, 2 * focal / height] };
   },
 
   // A point whose centre is outside of the picture is not drawn at all: the picture is made wider than its buffer.

@@ -12,7 +12,8 @@ mod timeline;
 mod write;
 
 use crate::{
-    Camera, Diagram, Map, Motion, Role, ViewError, WallSurface,
+    Camera, Diagram, GrainCount, Map, Motion, Role, ViewError, WallSurface,
+    bodies::bodies,
     classes::Sizes,
     extras, field,
     outline::Outline,
@@ -100,6 +101,8 @@ pub(crate) struct PageLayer {
     pub point_radius: f64,
     /// Places that stand out, as pushed [m].
     pub outline: Outline,
+    /// The same of grains that are far from all others; none where there is none.
+    pub strays: Outline,
     /// How it moves besides.
     pub motion: Motion,
     /// The positions to the last bit, where regions are drawn.
@@ -163,6 +166,7 @@ impl Page {
             frames: Timeline::default(),
             point_radius: 0.0,
             outline: Outline::default(),
+            strays: Outline::default(),
             motion: Motion::default(),
             exact: None,
             reach: [0.0; 2],
@@ -211,10 +215,14 @@ impl Page {
         if moving && spheres.sized {
             self.sizes.add(spheres.radius.iter().map(|r| 2.0 * r));
         }
+        let bodies = if moving { bodies(table) } else { Vec::new() };
         if layer.role.is_rods() {
             layer.add_reach(table, &spheres.radius);
         } else {
-            layer.outline.add_spheres(&spheres, layer.role != Role::Walls);
+            layer.outline.add_spheres(&spheres, &bodies, layer.role != Role::Walls);
+            if layer.outline.leaves_out(&spheres) {
+                layer.strays.add_spheres(&spheres, &[], false);
+            }
         }
         let mut columns = Vec::new();
         for field in &mut layer.fields {
@@ -223,10 +231,18 @@ impl Page {
             field.most = field.most.with(Range::of_most(&values));
             columns.push(values);
         }
-        let packed = Packed::new(time, &spheres, &columns, &layer.fields, layer.frames.last());
+        let mut packed = Packed::new(time, &spheres, &columns, &layer.fields, layer.frames.last());
+        packed.grains = GrainCount::with(spheres.len(), &bodies);
         layer.frames.push(packed, self.stride);
         self.given += usize::from(moving);
         self.fit()
+    }
+
+    /// The grains of the last frame.
+    pub fn grains(&self) -> GrainCount {
+        let layers = self.layers.iter().filter(|l| l.role == Role::Grains);
+        let last = layers.filter_map(|l| l.frames.last()).map(|frame| frame.grains);
+        last.fold(GrainCount::default(), GrainCount::plus)
     }
 
     /// What became of the frames so far.

@@ -6,7 +6,7 @@
 //! ```
 
 use super::Field;
-use crate::{scale::Range, spheres::Spheres};
+use crate::{GrainCount, scale::Range, spheres::Spheres};
 use std::sync::Arc;
 
 /// How much wider than needed a box is made, so that the next frames fit in it too [–].
@@ -69,6 +69,8 @@ pub(crate) struct Packed {
     pub time: f64,
     /// How many spheres.
     pub count: usize,
+    /// How many grains they are.
+    pub grains: GrainCount,
     /// The box of the positions [m].
     pub extent: [Range; 3],
     /// Positions: x, y, z of each, two bytes each.
@@ -109,6 +111,7 @@ impl Packed {
         Packed {
             time,
             count: spheres.len(),
+            grains: GrainCount::with(spheres.len(), &[]),
             extent,
             position,
             radius: Column::new(radii, sizes, 2, last.map(|l| &l.radius)),

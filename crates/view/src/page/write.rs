@@ -178,7 +178,8 @@ impl Page {
         let kinds: Vec<_> = (0..colour::KIND_COUNT).map(colour::kind).collect();
         let map = Map::ALL.iter().find(|(_, m)| *m == self.options.map).map(|(name, _)| *name);
         let camera = &self.options.camera;
-        let with_outline = self.layers.iter().zip(&framed.outlines).filter(|(l, _)| is_shown(l));
+        let outlines = framed.outlines.iter().zip(&framed.strays);
+        let with_outline = self.layers.iter().zip(outlines).filter(|(l, _)| is_shown(l));
         json!({
             "title": self.options.title,
             "maps": maps, "kinds": kinds, "wall": colour::WALL, "map": map,
@@ -228,12 +229,18 @@ fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
     })
 }
 
-fn layer<'a>(layer: &'a PageLayer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> Value {
+fn layer<'a>(
+    layer: &'a PageLayer,
+    (outline, strays): (&Vec<Vec3>, &Vec<Vec3>),
+    blobs: &mut Blobs<'a>,
+) -> Value {
+    let places = |of: &[Vec3]| of.iter().map(panes::triple).collect::<Vec<_>>();
     let mut frames = Vec::new();
     for frame in layer.frames.iter() {
         frames.push(json!({
             "time": frame.time,
             "count": frame.count,
+            "clumps": frame.grains.clumps, "members": frame.grains.members,
             "lo": frame.extent.map(|r| r.lo),
             "hi": frame.extent.map(|r| r.hi),
             "position": blobs.number(&frame.position),
@@ -260,7 +267,8 @@ fn layer<'a>(layer: &'a PageLayer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> V
         "motion": panes::motion(&layer.motion),
         "arrows": layer.arrow_key().map(|key| arrow_json(&key)),
         "fields": fields.chain(axes).collect::<Vec<_>>(),
-        "outline": outline.iter().map(panes::triple).collect::<Vec<_>>(),
+        "outline": places(outline),
+        "strays": places(strays),
         "frames": frames,
     })
 }

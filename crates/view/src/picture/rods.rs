@@ -10,7 +10,7 @@
 //! The second is quadratic along a ray; where s is not in 0…1, the sphere at that end counts. Without b, a = b, it is a
 //! sphere.
 
-use super::lens::{Lens, tangents};
+use super::lens::Lens;
 use geom::Vec3;
 
 /// A cone with round ends, or a disc, in the world.
@@ -42,11 +42,7 @@ impl SeenRod {
         let count = if rod.disc { 1 } else { 2 };
         let mut window = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
         for (end, radius) in ends.iter().zip(rod.radii).take(count) {
-            let [x0, x1] = tangents(end.x, end.z, radius)?;
-            let [y0, y1] = tangents(end.y, end.z, radius)?;
-            let [cx, cy] = lens.centre;
-            let own =
-                [cx + lens.focal * x0, cx + lens.focal * x1, cy - lens.focal * y1, cy - lens.focal * y0];
+            let own = lens.window([end.x, end.y, end.z], radius)?;
             window =
                 std::array::from_fn(
                     |k| {
@@ -54,11 +50,7 @@ impl SeenRod {
                     },
                 );
         }
-        let inside = window[1] >= 0.0
-            && window[3] >= 0.0
-            && window[0] < lens.size[0] as f64
-            && window[2] < lens.size[1] as f64;
-        inside.then_some(SeenRod { ends, radii: rod.radii, disc: rod.disc, window })
+        lens.shows(window).then_some(SeenRod { ends, radii: rod.radii, disc: rod.disc, window })
     }
 
     /// The larger radius [m].
