@@ -24,17 +24,19 @@ pub(super) struct Kin {
 }
 
 impl Kin {
-    /// Adds a body of spheres with these numbers; `sphere` gives centre and radius.
-    pub fn add(&mut self, numbers: &[usize], sphere: impl Fn(usize) -> ([f64; 3], f64)) {
+    /// Adds a body of spheres with these numbers; its number. `smooth` gives centre and radius of each; none where they
+    /// have no creases to smooth.
+    pub fn add(&mut self, numbers: &[usize], smooth: Vec<([f64; 3], f64)>) -> u32 {
+        let body = self.span.len() as u32;
+        numbers.iter().for_each(|&number| self.join(number, body));
         let start = self.members.len() as u32;
-        for &number in numbers {
-            self.join(number, self.span.len() as u32);
-            self.members.push(sphere(number));
-        }
+        self.members.extend(smooth);
         self.span.push([start, self.members.len() as u32]);
+        body
     }
 
-    fn join(&mut self, number: usize, body: u32) {
+    /// Makes a sphere or rod a part of a body.
+    pub fn join(&mut self, number: usize, body: u32) {
         if self.body.len() <= number {
             self.body.resize(number + 1, NOTHING);
         }
@@ -55,6 +57,9 @@ impl Kin {
     pub fn normal(&self, number: usize, point: [f64; 3]) -> Option<[f32; 3]> {
         let [from, to] = self.span[self.of(number)? as usize];
         let members = &self.members[from as usize..to as usize];
+        if members.is_empty() {
+            return None;
+        }
         let blend = BLEND * members.iter().map(|m| m.1).sum::<f64>() / members.len() as f64;
         let mut sum = [0.0; 3];
         for (centre, radius) in members {

@@ -122,14 +122,14 @@ impl Shaded {
         keep: impl Fn(Vec3) -> bool,
     ) -> Self {
         let mut joined = Spheres::default();
-        let (mut colour, mut kin) = (Vec::new(), Kin::default());
+        let (mut colour, mut kin, mut rods) = (Vec::new(), Kin::default(), rods.to_vec());
+        let mut of_bodies = vec![None; rods.len()];
         for layer in layers {
             // Only walls lose spheres by `keep`, and they have no bodies.
-            let first = joined.len();
-            for rows in &layer.bodies {
-                let numbers: Vec<usize> = rows.iter().map(|&row| first + row as usize).collect();
-                let of = |n: usize| (lens.seen(layer.spheres.at(n - first)), layer.spheres.radius[n - first]);
-                kin.add(&numbers, of);
+            let bodies = join_bodies(&mut kin, layer, joined.len(), lens);
+            for (n, own) in &layer.solids {
+                of_bodies.extend(vec![Some(bodies[*n]); own.len()]);
+                rods.extend(own);
             }
             for i in 0..layer.spheres.len() {
                 let place = layer.spheres.at(i);
@@ -141,9 +141,12 @@ impl Shaded {
                 colour.push(layer.colour[i]);
             }
         }
+        for (n, body) in of_bodies.iter().enumerate() {
+            body.iter().for_each(|&body| kin.join(joined.len() + n, body));
+        }
         let usual = middle_of(joined.radius.clone());
-        let depths = splat(&joined, rods, lens);
-        let shadow = Shadow::of(&joined, rods, &kin, usual, lens, extent);
+        let depths = splat(&joined, &rods, lens);
+        let shadow = Shadow::of(&joined, &rods, &kin, usual, lens, extent);
         colour.extend(rods.iter().map(|rod| rod.colour));
         Shaded { depths, shadow, colour, spheres: joined.len(), kin, reach: 4.0 * usual }
     }
@@ -207,6 +210,18 @@ impl Shaded {
     fn body_at(&self, at: [usize; 2], lens: &Lens) -> Option<u32> {
         self.kin.of(self.depths.number(at[1] * lens.size[0] + at[0], self.spheres)?)
     }
+}
+
+/// Adds the bodies of a layer, whose spheres are numbered from `first`; their numbers.
+fn join_bodies(kin: &mut Kin, layer: &PaintedLayer, first: usize, lens: &Lens) -> Vec<u32> {
+    let mut smooth = vec![true; layer.bodies.len()];
+    layer.solids.iter().for_each(|(n, _)| smooth[*n] = false);
+    let seen = |&row: &u32| (lens.seen(layer.spheres.at(row as usize)), layer.spheres.radius[row as usize]);
+    let body = |(rows, smooth): (&Vec<u32>, bool)| {
+        let numbers: Vec<usize> = rows.iter().map(|&row| first + row as usize).collect();
+        kin.add(&numbers, if smooth { rows.iter().map(seen).collect() } else { Vec::new() })
+    };
+    layer.bodies.iter().zip(smooth).map(body).collect()
 }
 
 /// The middle one of the radii [m].

@@ -13,6 +13,7 @@ mod paint;
 mod rods;
 mod shadow;
 mod shapes;
+mod solid;
 mod splat;
 mod survey;
 mod theme;

@@ -7,6 +7,7 @@ use super::{
     lens::Lens,
     rods::Rod,
     shapes::{self, ArrowKey},
+    solid::Solid,
     survey::Survey,
     theme::Theme,
 };
@@ -15,6 +16,7 @@ use crate::{
     sheet, spheres::Spheres,
 };
 use geom::Vec3;
+use record::ClumpRecord;
 use stream::Table;
 
 /// One table to draw.
@@ -28,6 +30,8 @@ pub struct DrawnTable<'a> {
     pub table: &'a Table,
     /// Names of the kinds that the field `material` counts.
     pub kinds: Vec<String>,
+    /// Shapes of clumps.
+    pub clumps: Vec<ClumpRecord>,
 }
 
 impl DrawnTable<'_> {
@@ -35,6 +39,21 @@ impl DrawnTable<'_> {
     pub(super) fn bodies(&self) -> Vec<Vec<u32>> {
         if self.role == Role::Grains { bodies(self.table) } else { Vec::new() }
     }
+}
+
+/// Edges and faces of the clumps that are polyhedra, with the place of each in `bodies`.
+fn solids(
+    part: &DrawnTable,
+    spheres: &Spheres,
+    bodies: &[Vec<u32>],
+    colour: &[[f32; 3]],
+) -> Vec<(usize, Vec<Rod>)> {
+    let known: Vec<Solid> = part.clumps.iter().filter_map(Solid::of).collect();
+    let solid = |(n, rows): (usize, &Vec<u32>)| {
+        let solid = known.iter().find(|solid| solid.fits(spheres, rows))?;
+        Some((n, solid.rods(spheres, rows, colour[rows[0] as usize])))
+    };
+    bodies.iter().enumerate().filter_map(solid).collect()
 }
 
 /// One kind of thing, ready to draw.
@@ -45,6 +64,8 @@ pub(crate) struct PaintedLayer {
     pub colour: Vec<[f32; 3]>,
     /// The spheres of each clump.
     pub bodies: Vec<Vec<u32>>,
+    /// Edges and faces of those that are polyhedra, with the place in `bodies`.
+    pub solids: Vec<(usize, Vec<Rod>)>,
 }
 
 /// A plane or mesh where it is at the moment.
@@ -103,7 +124,8 @@ impl Painted {
             let shown = survey.role() == Some(part.role);
             let bodies = part.bodies();
             let colour = if shown { key.colours(part.table, &bodies) } else { plain(spheres.len()) };
-            layers.push(PaintedLayer { role: part.role, spheres, colour, bodies });
+            let solids = if shrunk == 1.0 { solids(part, &spheres, &bodies, &colour) } else { Vec::new() };
+            layers.push(PaintedLayer { role: part.role, spheres, colour, bodies, solids });
         }
         let mut painted = Painted {
             layers,
