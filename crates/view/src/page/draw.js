@@ -56,6 +56,7 @@ const painter = {
     const all = this.layers.filter((b) => !state.hidden.has(b.layer));
     const isGlass = (b) => walls && b.layer.role === "walls";
     this.drawn = 0;
+    this.smooth = false;
     const glass = all.filter((b) => isGlass(b) && state.opacity > 0);
     this.solid.resize(...size);
     this.glass.resize(...(glass.length ? size : [1, 1]));
@@ -122,6 +123,7 @@ const painter = {
     const frame = frameAt(layer, clock[state.frame]);
     const pose = poseOf(layer.motion, middle, clock[state.frame]);
     const scale = sizeOf(layer);
+    this.smooth ||= frame.clumps > 0 && !this.dots;
     gl.bindVertexArray(buffers.array);
     gl.uniform3fv(at("boxLo"), frame.lo.map((lo, k) => lo - middle[k]));
     gl.uniform3fv(at("boxSize"), frame.hi.map((hi, k) => hi - frame.lo[k]));
@@ -154,6 +156,7 @@ const painter = {
     buffers.column(0, frame.position, 3, 2, each);
     buffers.column(1, frame.radius[0], 1, 2, each);
     buffers.marks(each);
+    buffers.tags(frame, each);
     this.colours(buffers, frame, each);
   },
 
@@ -174,7 +177,7 @@ const painter = {
       gl.uniform2f(at(`valueOf[${n}]`), column ? column[1] : 0, column ? column[2] - column[1] : 0);
     }
     const about = own || !coloured ? null : describe(state.field);
-    gl.uniform1i(at("mode"), !coloured ? 0 : own ? 3 : about.kinds ? 2 : 1);
+    gl.uniform1i(at("mode"), !coloured ? 0 : own ? 3 : about.kinds ? (about.name === "body" && about.all[1] >= run.kinds.length ? 4 : 2) : 1);
     gl.uniform1i(at("axis"), own ? -1 : axis);
     const shift = axis < 0 ? 0 : middle[axis];
     gl.uniform2f(at("shown"), state.shown[0] - shift, state.shown[1] - shift);
@@ -204,6 +207,7 @@ const painter = {
     gl.uniform1i(at("sheets"), sheets.glass().length ? 1 : 0);
     gl.uniform1f(at("reach"), 4 * typicalRadius());
     gl.uniform1i(at("samples"), quality);
+    gl.uniform1i(at("smoothed"), this.smooth ? 1 : 0);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   },
 };

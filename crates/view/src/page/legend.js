@@ -112,7 +112,7 @@ function showGnomon() {
 // "50 000 grains", or with clumps "120 clumps of 840 spheres, 30 spheres".
 function grainWords(layers) {
   const sum = (of) => layers.map((l) => of(frameAt(l, clock[state.frame]))).reduce((a, b) => a + b, 0);
-  const [count, clumps, members] = [sum((f) => f.count), sum((f) => f.clumps), sum((f) => f.members)];
+  const [count, clumps, members] = [sum((f) => f.count), sum((f) => f.clumps || 0), sum((f) => f.members || 0)];
   const words = (n, word) => `${grouped(n)} ${n === 1 ? word : `${word}s`}`;
   if (!clumps) return count ? words(count, "grain") : "";
   const alone = count > members ? `, ${words(count - members, "sphere")}` : "";

@@ -237,16 +237,20 @@ fn layer<'a>(
     let places = |of: &[Vec3]| of.iter().map(panes::triple).collect::<Vec<_>>();
     let mut frames = Vec::new();
     for frame in layer.frames.iter() {
-        frames.push(json!({
+        let mut packed = json!({
             "time": frame.time,
             "count": frame.count,
-            "clumps": frame.grains.clumps, "members": frame.grains.members,
             "lo": frame.extent.map(|r| r.lo),
             "hi": frame.extent.map(|r| r.hi),
             "position": blobs.number(&frame.position),
             "radius": blobs.column(&frame.radius),
             "fields": frame.fields.iter().map(|f| blobs.column(f)).collect::<Vec<_>>(),
-        }));
+        });
+        if frame.grains.clumps > 0 {
+            packed["clumps"] = json!(frame.grains.clumps);
+            packed["members"] = json!(frame.grains.members);
+        }
+        frames.push(packed);
     }
     let fields = layer.fields.iter().map(|f| {
         let shown = f.most.opened();
