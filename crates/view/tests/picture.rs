@@ -186,6 +186,7 @@ fn a_grain_casts_a_shadow_on_the_floor_and_on_wall_spheres() {
             name: "walls".into(),
             table,
             kinds: vec![],
+            clumps: vec![],
         }));
         let options = PictureOptions {
             width: 600,
