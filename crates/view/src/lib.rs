@@ -25,6 +25,7 @@ mod scale;
 mod series;
 mod sheet;
 mod show;
+mod solid;
 mod spheres;
 mod surface;
 pub mod vtk;

@@ -53,9 +53,10 @@ pub trait Show {
 
 impl Show for Page {
     fn layer(&mut self, head: LayerHead) -> usize {
-        let LayerHead { role, name, kinds, motion, .. } = head;
+        let LayerHead { role, name, kinds, clumps, motion } = head;
         let layer = Page::layer(self, role, &name);
         self.kinds(layer, kinds);
+        self.clumps(layer, &clumps);
         self.moves(layer, motion);
         layer
     }

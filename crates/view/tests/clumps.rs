@@ -101,6 +101,36 @@ fn a_polyhedron_is_drawn_with_its_faces() {
     assert!(paper(&seen(&drawn, vec![larger])), "another shape");
 }
 
+/// The page has the mesh of the shape, and says where a clump has it.
+#[test]
+fn a_page_has_the_mesh_of_a_polyhedron() {
+    let (drawn, record) = cube(8.0);
+    let solids = |record| {
+        let mut page = Page::new(PageOptions::default());
+        let layer = page.layer(Role::Grains, "run");
+        page.clumps(layer, &[record]);
+        page.push(layer, 0.0, &drawn).expect("whole");
+        let layer = header(&page)["layers"][0].clone();
+        let shape = layer["solids"][0].clone();
+        // Two triangles of each of 6 sides, and two in each of two steps of 18 edges.
+        let corners = shape["corners"].as_u64().map(|n| n as usize);
+        (
+            corners,
+            layer["frames"][0]["solids"].is_number(),
+            page.html().expect("written").contains("solid-vert"),
+        )
+    };
+    assert_eq!(solids(record), (Some(3 * (12 + 4 * 18)), true, true));
+    assert_eq!(solids(cube(3.0).1), (None, false, false));
+}
+
+/// What a page knows.
+fn header(page: &Page) -> serde_json::Value {
+    let html = page.html().expect("written");
+    let header = html.split("id=\"header\">").nth(1).and_then(|s| s.split("</script>").next());
+    serde_json::from_str(header.expect("there")).expect("JSON")
+}
+
 /// Clumps of four spheres without order, and grains between them.
 fn heap() -> Table {
     let mut state = 1u64;
@@ -184,9 +214,7 @@ fn a_page_reaches_strays() {
         let mut page = Page::new(PageOptions::default());
         let layer = page.layer(Role::Grains, "run");
         page.push(layer, 0.0, &fallen(count, false)).expect("whole");
-        let html = page.html().expect("written");
-        let header = html.split("id=\"header\">").nth(1).and_then(|s| s.split("</script>").next());
-        let header: serde_json::Value = serde_json::from_str(header.expect("there")).expect("JSON");
+        let header = header(&page);
         let lowest = |places: &serde_json::Value| {
             let all = places.as_array().expect("places").iter().filter_map(|p| p[2].as_f64());
             all.fold(f64::INFINITY, f64::min)

@@ -68,6 +68,7 @@ const painter = {
     this.widen(size);
     for (const b of all) if (!isGlass(b)) this.spheres(b, view);
     rods.draw(view, size);
+    solids.draw(view, size);
     gl.viewport(0, 0, ...size);
     sheets.drawSolid(view);
     gl.useProgram(this.ball.made);
@@ -112,9 +113,7 @@ const painter = {
     gl.uniform1f(at("most"), this.most);
     gl.uniform1f(at("pixel"), 1 / view.focal);
     gl.uniform3fv(at("markColour"), [0.9, 0.22, 0.18]);
-    gl.uniform3fv(at("kinds[0]"), run.kinds.flat().map((c) => c / 255));
-    gl.uniform3fv(at("plain"), run.wall.map((c) => c / 255));
-    gl.uniform1i(at("map"), 0);
+    this.setColours(this.ball);
   },
 
   spheres(buffers, view) {
@@ -161,8 +160,13 @@ const painter = {
   },
 
   colours(buffers, frame, each) {
-    const { at } = this.ball;
-    const layer = buffers.layer;
+    const paint = this.paint(buffers.layer, frame);
+    paint.columns.forEach((column, n) => buffers.column(2 + n, column ? column[0] : null, 1, column ? column[3] : 1, each));
+    this.setPaint(this.ball, paint);
+  },
+
+  // What a layer is coloured by in a frame: up to three columns, and how a program reads them.
+  paint(layer, frame) {
     const axis = ["x", "y", "z"].indexOf(state.field);
     const main = layer.role === mainRole;
     // A scan beside grains keeps the colours it came with.
@@ -171,16 +175,25 @@ const painter = {
     const sizes = state.field === "size" && !layer.pointRadius;
     const coloured = own || (main && (sizes || fieldOf(layer, state.field) >= 0));
     const diameter = frame.radius.map((v, k) => (k === 1 || k === 2 ? 2 * v : v));
-    for (let n = 0; n < 3; n++) {
-      const column = coloured && (own || axis < 0) && names[n] ? (sizes && !own ? diameter : frame.fields[fieldOf(layer, names[n])]) : null;
-      buffers.column(2 + n, column ? column[0] : null, 1, column ? column[3] : 1, each);
-      gl.uniform2f(at(`valueOf[${n}]`), column ? column[1] : 0, column ? column[2] - column[1] : 0);
-    }
+    const column = (name) => (sizes && !own ? diameter : frame.fields[fieldOf(layer, name)]);
+    const columns = [0, 1, 2].map((n) => (coloured && (own || axis < 0) && names[n] ? column(names[n]) : null));
     const about = own || !coloured ? null : describe(state.field);
-    gl.uniform1i(at("mode"), !coloured ? 0 : own ? 3 : about.kinds ? (about.name === "body" && about.all[1] >= run.kinds.length ? 4 : 2) : 1);
-    gl.uniform1i(at("axis"), own ? -1 : axis);
-    const shift = axis < 0 ? 0 : middle[axis];
+    const kinds = about?.name === "body" && about.all[1] >= run.kinds.length ? 4 : 2;
+    return { columns, mode: !coloured ? 0 : own ? 3 : about.kinds ? kinds : 1, axis: own ? -1 : axis };
+  },
+
+  setPaint({ at }, { columns, mode, axis }) {
+    columns.forEach((column, n) => gl.uniform2f(at(`valueOf[${n}]`), column ? column[1] : 0, column ? column[2] - column[1] : 0));
+    gl.uniform1i(at("mode"), mode);
+    gl.uniform1i(at("axis"), axis);
+    const shift = middle[["x", "y", "z"].indexOf(state.field)] ?? 0;
     gl.uniform2f(at("shown"), state.shown[0] - shift, state.shown[1] - shift);
+  },
+
+  setColours({ at }) {
+    gl.uniform3fv(at("kinds[0]"), run.kinds.flat().map((c) => c / 255));
+    gl.uniform3fv(at("plain"), run.wall.map((c) => c / 255));
+    gl.uniform1i(at("map"), 0);
   },
 
   compose(view, quality, glass) {

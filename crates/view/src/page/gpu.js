@@ -57,6 +57,9 @@ class Target {
   }
 }
 
+// A number for a clump, to tell it from its neighbours; 255 is none.
+const tagOf = (body) => 1 + (Math.imul(body, 0x9e3779b9) >>> 24) % 254;
+
 // The columns of a layer on the graphics card; a column that is there already is not sent again.
 class Buffers {
   constructor(layer) {
@@ -99,7 +102,7 @@ class Buffers {
     gl.bindBuffer(gl.ARRAY_BUFFER, column.buffer);
     if (column.number !== body[0]) {
       const of = numbersOf(body[0], body[3]);
-      const tag = (v, i) => (v === of[i - 1] || v === of[i + 1] ? 1 + (Math.imul(v, 0x9e3779b9) >>> 24) % 254 : 255);
+      const tag = (v, i) => (v === of[i - 1] || v === of[i + 1] ? tagOf(v) : 255);
       gl.bufferData(gl.ARRAY_BUFFER, Uint8Array.from(of, tag), gl.DYNAMIC_DRAW);
       column.number = body[0];
     }

@@ -8,12 +8,13 @@ mod exact;
 mod fit;
 mod pack;
 mod panes;
+mod solids;
 mod timeline;
 mod write;
 
 use crate::{
     Camera, Diagram, GrainCount, Map, Motion, Role, ViewError, WallSurface,
-    bodies::bodies,
+    bodies::{bodies, even_out},
     classes::Sizes,
     extras, field,
     outline::Outline,
@@ -23,6 +24,8 @@ use crate::{
 };
 use exact::Exact;
 use pack::Packed;
+use record::{ClumpRecord, column::RADIUS};
+use solids::PageSolids;
 use stream::{Table, Values};
 use timeline::Timeline;
 
@@ -103,6 +106,8 @@ pub(crate) struct PageLayer {
     pub outline: Outline,
     /// The same of grains that are far from all others; none where there is none.
     pub strays: Outline,
+    /// Clumps that are polyhedra.
+    pub solids: PageSolids,
     /// How it moves besides.
     pub motion: Motion,
     /// The positions to the last bit, where regions are drawn.
@@ -167,6 +172,7 @@ impl Page {
             point_radius: 0.0,
             outline: Outline::default(),
             strays: Outline::default(),
+            solids: PageSolids::default(),
             motion: Motion::default(),
             exact: None,
             reach: [0.0; 2],
@@ -177,6 +183,11 @@ impl Page {
     /// Names the kinds that the field `material` of a layer counts.
     pub fn kinds(&mut self, layer: usize, kinds: Vec<String>) {
         self.layers[layer].kinds = kinds;
+    }
+
+    /// Shapes of the clumps of a layer.
+    pub fn clumps(&mut self, layer: usize, clumps: &[ClumpRecord]) {
+        self.layers[layer].solids = PageSolids::of(clumps);
     }
 
     /// Lets a layer move as one body; what is pushed is where its spheres are at t = 0.
@@ -226,13 +237,17 @@ impl Page {
         }
         let mut columns = Vec::new();
         for field in &mut layer.fields {
-            let values = field::values(table, &field.name).unwrap_or_else(|| vec![0.0; table.rows()]);
+            let mut values = field::values(table, &field.name).unwrap_or_else(|| vec![0.0; table.rows()]);
+            if !field.whole && field.name != RADIUS {
+                even_out(&mut values, &bodies);
+            }
             field.all = field.all.with(Range::of(&values));
             field.most = field.most.with(Range::of_most(&values));
             columns.push(values);
         }
         let mut packed = Packed::new(time, &spheres, &columns, &layer.fields, layer.frames.last());
         packed.grains = GrainCount::with(spheres.len(), &bodies);
+        packed.solids = layer.solids.find(&spheres, &bodies, layer.frames.last());
         layer.frames.push(packed, self.stride);
         self.given += usize::from(moving);
         self.fit()

@@ -71,6 +71,8 @@ pub(crate) struct Packed {
     pub count: usize,
     /// How many grains they are.
     pub grains: GrainCount,
+    /// Clumps that are polyhedra, see [`super::solids`].
+    pub solids: Arc<Vec<u8>>,
     /// The box of the positions [m].
     pub extent: [Range; 3],
     /// Positions: x, y, z of each, two bytes each.
@@ -112,6 +114,7 @@ impl Packed {
             time,
             count: spheres.len(),
             grains: GrainCount::with(spheres.len(), &[]),
+            solids: Arc::default(),
             extent,
             position,
             radius: Column::new(radii, sizes, 2, last.map(|l| &l.radius)),
@@ -130,7 +133,9 @@ impl Packed {
 
     /// All columns of bytes.
     pub fn blobs(&self) -> impl Iterator<Item = &Arc<Vec<u8>>> {
-        [&self.position, &self.radius.bytes].into_iter().chain(self.fields.iter().map(|f| &f.bytes))
+        [&self.position, &self.radius.bytes, &self.solids]
+            .into_iter()
+            .chain(self.fields.iter().map(|f| &f.bytes))
     }
 }
 

@@ -7,13 +7,13 @@ use super::{
     lens::Lens,
     rods::Rod,
     shapes::{self, ArrowKey},
-    solid::Solid,
+    solid::rods,
     survey::Survey,
     theme::Theme,
 };
 use crate::{
     GrainCount, Role, SurfaceShape, ViewError, WallSurface, bodies::bodies, extras::GRAINS, scale::Range,
-    sheet, spheres::Spheres,
+    sheet, solid::Solid, spheres::Spheres,
 };
 use geom::Vec3;
 use record::ClumpRecord;
@@ -51,7 +51,7 @@ fn solids(
     let known: Vec<Solid> = part.clumps.iter().filter_map(Solid::of).collect();
     let solid = |(n, rows): (usize, &Vec<u32>)| {
         let solid = known.iter().find(|solid| solid.fits(spheres, rows))?;
-        Some((n, solid.rods(spheres, rows, colour[rows[0] as usize])))
+        Some((n, rods(solid, spheres, rows, colour[rows[0] as usize])))
     };
     bodies.iter().enumerate().filter_map(solid).collect()
 }

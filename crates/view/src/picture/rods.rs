@@ -66,7 +66,8 @@ impl SeenRod {
         };
         for (end, radius) in balls {
             let own = lens.window([end.x, end.y, end.z], radius)?;
-            let wider = |k: usize| if [0, 2].contains(&k) { window[k].min(own[k]) } else { window[k].max(own[k]) };
+            let wider =
+                |k: usize| if [0, 2].contains(&k) { window[k].min(own[k]) } else { window[k].max(own[k]) };
             window = std::array::from_fn(wider);
         }
         lens.shows(window).then_some(SeenRod { ends, radii: rod.radii, shape, window })
