@@ -81,9 +81,9 @@ fn a_polyhedron_has_faces_that_can_be_picked() {
         let (_folder, file) = page(&cube, true, &shapes);
         browser.show(&file);
         let middle = browser.value(LINE)[100].as_f64().expect("a number");
-        let depth = "(() => { const s = seenAt(minus3([0, 0, 0], middle)); const hit = findAt(s.x, s.y); \
-            return hit ? camera.distance - hit.depth : -1; })()";
-        let before = browser.number(depth);
+        let before = "(() => { const s = seenAt(minus3([0, 0, 0], middle)); const ray = rayAt(s.x, s.y); \
+            const hit = findAt(s.x, s.y); return hit ? -ray.from[1] - hit.depth * ray.along[1] - middle[1] : -1; })()";
+        let before = browser.number(before);
         browser.assert_calm();
         (middle, before)
     });
