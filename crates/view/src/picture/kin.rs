@@ -17,8 +17,8 @@ const BLEND: f64 = 0.6;
 pub(super) struct Kin {
     /// Body of each sphere and rod, or [`NOTHING`]; empty without bodies.
     body: Vec<u32>,
-    /// Spheres of each body: where they begin and end in `members`.
-    span: Vec<[u32; 2]>,
+    /// Spheres of each body: where they begin and end in `members`, and how far they bend normals [m].
+    span: Vec<([u32; 2], f64)>,
     /// Centre as seen [m] and radius [m].
     members: Vec<([f64; 3], f64)>,
 }
@@ -30,8 +30,10 @@ impl Kin {
         let body = self.span.len() as u32;
         numbers.iter().for_each(|&number| self.join(number, body));
         let start = self.members.len() as u32;
+        let radii = smooth.iter().map(|m| m.1).sum::<f64>();
+        let blend = BLEND * radii / smooth.len().max(1) as f64;
         self.members.extend(smooth);
-        self.span.push([start, self.members.len() as u32]);
+        self.span.push(([start, self.members.len() as u32], blend));
         body
     }
 
@@ -55,12 +57,11 @@ impl Kin {
 
     /// The normal at a place of the surface of sphere `number`; none where that is no member of a body.
     pub fn normal(&self, number: usize, point: [f64; 3]) -> Option<[f32; 3]> {
-        let [from, to] = self.span[self.of(number)? as usize];
+        let ([from, to], blend) = self.span[self.of(number)? as usize];
         let members = &self.members[from as usize..to as usize];
         if members.is_empty() {
             return None;
         }
-        let blend = BLEND * members.iter().map(|m| m.1).sum::<f64>() / members.len() as f64;
         let mut sum = [0.0; 3];
         for (centre, radius) in members {
             let away: [f64; 3] = std::array::from_fn(|k| point[k] - centre[k]);
