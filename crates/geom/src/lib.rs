@@ -13,6 +13,8 @@ pub mod cells;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod grid;
 #[cfg(not(target_arch = "nvptx64"))]
+pub mod hull;
+#[cfg(not(target_arch = "nvptx64"))]
 mod inside;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod mesh;

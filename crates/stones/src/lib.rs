@@ -5,7 +5,6 @@
 //! clean       any triangles or points → a stone
 //! triangles   whether triangles meet: exact
 //! crossing    whether meshes overlap: exact; whether a mesh crosses itself
-//! hull        the convex hull: exact
 //! shape       sieve size, elongation, flatness, convexity, sphericity
 //! roundness   how blunt its corners are
 //! samples     points inside a stone and on its surface
@@ -25,7 +24,6 @@ mod crossing;
 mod distance;
 pub mod grading;
 pub mod harmonics;
-mod hull;
 pub mod library;
 pub mod pack;
 mod placed;

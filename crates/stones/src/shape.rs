@@ -13,11 +13,10 @@
 //! Volume, area and hull are exact. D and the box are minima over all rotations: a search from even orientations and from the principal axes,
 //! refined to 10⁻⁷ rad.
 
-use crate::hull::hull;
 use crate::random::{even, orientation};
 use crate::roundness::roundness;
 use crate::stone::Stone;
-use geom::Vec3;
+use geom::{Vec3, hull::hull};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use serde::Serialize;
 use std::f64::consts::PI;

@@ -7,16 +7,11 @@
 //! A common point is a meeting.
 
 use geom::Vec3;
-use robust::{Coord, Coord3D, orient2d, orient3d};
+use geom::hull::side;
+use robust::{Coord, orient2d};
 
 /// Three corners [m].
 pub(crate) type Triangle = [Vec3; 3];
-
-/// The sign of the volume of abcd: positive where d is below abc, the side from which a, b, c run clockwise.
-pub(crate) fn side(a: &Vec3, b: &Vec3, c: &Vec3, d: &Vec3) -> i8 {
-    let [a, b, c, d] = [a, b, c, d].map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
-    sign(orient3d(a, b, c, d))
-}
 
 fn sign(x: f64) -> i8 {
     i8::from(x > 0.0) - i8::from(x < 0.0)

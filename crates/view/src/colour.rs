@@ -66,6 +66,13 @@ pub fn kind(number: usize) -> Rgb {
     rgb(KINDS[number % KINDS.len()])
 }
 
+/// The colour of a clump, by its number: that of its first sphere, so neighbouring ones differ by the spheres of a clump, and
+/// a multiple of 8 would be one colour for all. A hash scatters them (D. Knuth 1998, The Art of Computer Programming 3,
+/// 6.4: by the golden ratio).
+pub fn scattered(number: usize) -> Rgb {
+    kind(((number as u32).wrapping_mul(0x9e37_79b9) >> 29) as usize)
+}
+
 /// How many kinds have a colour of their own.
 pub const KIND_COUNT: usize = KINDS.len();
 
@@ -82,6 +89,12 @@ fn rgb(hex: u32) -> Rgb {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn clumps_of_eight_spheres_have_all_colours() {
+        let colours: std::collections::HashSet<Rgb> = (0..40).map(|n| scattered(8 * n)).collect();
+        assert_eq!(colours.len(), KIND_COUNT);
+    }
 
     #[test]
     fn viridis_grows_lighter_all_the_way() {

@@ -1,5 +1,6 @@
 //! The fields of a table: what its spheres can be coloured by, under which name and in which unit.
 
+use record::column::{BODY, ID};
 use stream::{Table, table::Values};
 
 /// Three columns whose length is a separate field.
@@ -56,6 +57,9 @@ pub fn values(table: &Table, name: &str) -> Option<Vec<f64>> {
 /// table does not have that field.
 pub fn columns(table: &Table, asked: Option<&str>) -> Option<Vec<String>> {
     let mut columns = vec!["x", "y", "z", "radius", "red", "green", "blue"];
+    if table.get(BODY).is_some() {
+        columns.extend([ID, BODY]); // clumps are drawn and counted as bodies
+    }
     let default = default_of(table);
     let name = asked.unwrap_or(&default);
     if let Some(column) = table.columns().iter().find(|c| c.name == name) {

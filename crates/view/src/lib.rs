@@ -6,6 +6,7 @@
 //! whatever can [`Show`] them: a page, one [`Moment`], or a [`Series`] of moments; those give pictures, films and files. The caller opens
 //! files and reads clouds. Uses `record` for the formats of runs; knows no engine.
 
+mod bodies;
 mod camera;
 mod classes;
 mod colour;
@@ -24,10 +25,12 @@ mod scale;
 mod series;
 mod sheet;
 mod show;
+mod solid;
 mod spheres;
 mod surface;
 pub mod vtk;
 
+pub use bodies::GrainCount;
 pub use camera::Camera;
 pub use colour::{Map, Rgb};
 pub use diagram::{Diagram, DiagramCurve};

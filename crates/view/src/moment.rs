@@ -1,7 +1,7 @@
 //! One moment of everything, for a picture.
 
 use crate::show::{LayerHead, Show, add_surface};
-use crate::{DrawnTable, Role, ViewError, WallSurface};
+use crate::{DrawnTable, GrainCount, Role, ViewError, WallSurface};
 use stream::Table;
 
 /// One thing at the moment shown.
@@ -29,6 +29,13 @@ impl Moment {
     pub fn time(&self) -> Option<f64> {
         let grains = self.layers.iter().filter(|l| l.head.role == Role::Grains);
         grains.filter_map(|l| l.shown.as_ref()).map(|(time, _)| *time).reduce(f64::max)
+    }
+
+    /// The grains shown.
+    pub fn grains(&self) -> GrainCount {
+        let grains = self.layers.iter().filter(|l| l.head.role == Role::Grains);
+        let shown = grains.filter_map(|l| l.shown.as_ref()).map(|(_, table)| GrainCount::of(table));
+        shown.fold(GrainCount::default(), GrainCount::plus)
     }
 
     /// Moves walls to their positions at the time shown.

@@ -1,6 +1,6 @@
 //! The points that stand out farthest, each way: what a camera must see to see everything.
 
-use crate::spheres::Spheres;
+use crate::{scale::Range, spheres::Spheres};
 use geom::Vec3;
 
 /// Spheres of a layer that are looked at, at most: their outline hardly depends on more.
@@ -20,18 +20,35 @@ pub(crate) struct Outline {
 }
 
 impl Outline {
-    /// Takes in spheres; without their strays when they are `loose`.
-    pub fn add_spheres(&mut self, spheres: &Spheres, loose: bool) {
-        let step = if loose { spheres.len().div_ceil(SAMPLE).max(1) } else { 1 };
-        let balls: Vec<(Vec3, f64)> =
-            (0..spheres.len()).step_by(step).map(|i| (spheres.at(i), spheres.radius[i])).collect();
+    /// Takes in spheres; without their strays when they are `loose`. Each of the `bodies` is one grain.
+    pub fn add_spheres(&mut self, spheres: &Spheres, bodies: &[Vec<u32>], loose: bool) {
+        let mut alone = vec![true; spheres.len()];
+        bodies.iter().flatten().for_each(|&row| alone[row as usize] = false);
+        let alone: Vec<u32> = (0..spheres.len() as u32).filter(|&row| alone[row as usize]).collect();
+        let all = alone.chunks(1).chain(bodies.iter().map(Vec::as_slice));
+        let step = if loose { (alone.len() + bodies.len()).div_ceil(SAMPLE).max(1) } else { 1 };
+        let grains: Vec<&[u32]> = all.step_by(step).collect();
         for (n, direction) in directions().enumerate() {
-            let reach = balls.iter().map(|(p, r)| p.dot(&direction) + r).enumerate();
-            if let Some(i) = farthest(reach.map(|(i, far)| (far, i)).collect(), loose) {
-                let point = balls[i].0 + direction * balls[i].1;
+            let far = |row: usize| spheres.at(row).dot(&direction) + spheres.radius[row];
+            let farthest_of = |rows: &&[u32]| {
+                let reach = rows.iter().map(|&row| (far(row as usize), row as usize));
+                reach.max_by(|a, b| a.0.total_cmp(&b.0))
+            };
+            if let Some(row) = farthest(grains.iter().filter_map(farthest_of).collect(), loose) {
+                let point = spheres.at(row) + direction * spheres.radius[row];
                 self.take(n, point.dot(&direction), point);
             }
         }
+    }
+
+    /// Whether some spheres are far outside: strays that were left out.
+    pub fn leaves_out(&self, spheres: &Spheres) -> bool {
+        let points = self.points();
+        (0..3).any(|k| {
+            let of = Range::of(&points.iter().map(|p| p[k]).collect::<Vec<f64>>());
+            let (all, far) = (Range::of(&spheres.centre[k]), NEAR * (of.hi - of.lo));
+            all.hi > of.hi + far || all.lo < of.lo - far
+        })
     }
 
     /// Takes in points.
@@ -83,21 +100,39 @@ mod tests {
 
     #[test]
     fn a_ball_of_spheres_is_outlined_without_its_stray() {
+        let outlined = |loose| reach(&with_strays(1), &[], loose);
+        assert!(outlined(false) > 1e3 && (outlined(true) - 1.0).abs() < 1e-9);
+        assert_eq!(directions().count(), 98);
+    }
+
+    /// One clump of 30 spheres, of 100 grains in all, is a stray as one sphere is.
+    #[test]
+    fn a_clump_far_off_is_one_stray_whatever_its_spheres() {
+        let spheres = with_strays(30);
+        let clump = (1000..1030).collect();
+        let tens = (0..100).map(|k| (10 * k..10 * k + 10).collect());
+        let bodies: Vec<Vec<u32>> = tens.chain([clump]).collect();
+        assert!(reach(&spheres, &[], true) > 1e3, "30 of 1030 spheres are no strays");
+        assert!((reach(&spheres, &bodies, true) - 1.0).abs() < 1e-9);
+    }
+
+    /// Farthest that an outline goes.
+    fn reach(spheres: &Spheres, bodies: &[Vec<u32>], loose: bool) -> f64 {
+        let mut outline = Outline::default();
+        outline.add_spheres(spheres, bodies, loose);
+        outline.points().iter().map(|p| p.norm()).fold(0.0, f64::max)
+    }
+
+    /// 1000 points on a ball of radius 1, and some 10 km off.
+    fn with_strays(strays: usize) -> Spheres {
         let point = |i: usize| {
             let (a, z) = (2.4 * i as f64, (i as f64 + 0.5) / 500.0 - 1.0);
             let r = (1.0 - z * z).sqrt();
             Vec3::new(r * a.cos(), r * a.sin(), z)
         };
         let mut all: Vec<Vec3> = (0..1000).map(point).collect();
-        all.push(Vec3::new(1e4, 0.0, 0.0));
+        all.extend(vec![Vec3::new(1e4, 0.0, 0.0); strays]);
         let centre = std::array::from_fn(|k| all.iter().map(|p| p[k]).collect());
-        let spheres = Spheres { centre, radius: vec![0.0; all.len()], sized: true };
-        let outlined = |loose| {
-            let mut outline = Outline::default();
-            outline.add_spheres(&spheres, loose);
-            outline.points().iter().map(|p| p.norm()).fold(0.0, f64::max)
-        };
-        assert!(outlined(false) > 1e3 && (outlined(true) - 1.0).abs() < 1e-9);
-        assert_eq!(directions().count(), 98);
+        Spheres { centre, radius: vec![0.0; all.len()], sized: true }
     }
 }

@@ -3,9 +3,9 @@
 use crate::show::{LayerHead, Show};
 use crate::{Arrows, Extras, Motion, Role, ViewError, WallSurface, extras};
 use record::column::{BROKEN, RADIUS, WALL};
-use record::metadata::MATERIALS;
+use record::metadata::{CLUMPS, MATERIALS};
 use record::topic::{BONDS, CONTACTS, PARTICLES, SURFACES, WALLS};
-use record::{Map, MaterialRecord, WallRecord};
+use record::{ClumpRecord, Map, MaterialRecord, WallRecord};
 use std::collections::{BTreeMap, HashMap};
 use stream::mcap::{Event, McapError};
 use stream::{Table, Values};
@@ -17,6 +17,8 @@ struct Run<'a, S> {
     show: &'a mut S,
     /// Names of the materials.
     kinds: Vec<String>,
+    /// Shapes of clumps.
+    clumps: Vec<ClumpRecord>,
     /// The layer of a topic.
     layers: HashMap<&'static str, usize>,
     /// Grains that wait for the bonds of their time.
@@ -57,6 +59,7 @@ pub fn show_run(
         extras,
         show,
         kinds: Vec::new(),
+        clumps: Vec::new(),
         layers: HashMap::new(),
         frame: None,
         usual: 0.0,
@@ -68,6 +71,10 @@ pub fn show_run(
     for event in events {
         match event? {
             Event::Metadata { name, map } if name == MATERIALS => run.kinds = names(&map),
+            // A record that cannot be read is one of spheres, as without it.
+            Event::Metadata { name: of, map } if of == CLUMPS => {
+                run.clumps = ClumpRecord::from_map(name, &map).unwrap_or_default();
+            }
             Event::Points { topic, time_ns, table } => match topic.as_str() {
                 PARTICLES => run.grains(time_ns as f64 / 1e9, table)?,
                 WALLS => run.wall_spheres(time_ns as f64 / 1e9, table)?,
@@ -97,8 +104,8 @@ impl<S: Show> Run<'_, S> {
     }
 
     fn layer(&mut self, role: Role, word: &str, motion: Motion) -> usize {
-        let (name, kinds) = (format!("{word} ({})", self.name), self.kinds.clone());
-        self.show.layer(LayerHead { role, name, kinds, motion })
+        let (kinds, clumps) = (self.kinds.clone(), self.clumps.clone());
+        self.show.layer(LayerHead { role, name: format!("{word} ({})", self.name), kinds, clumps, motion })
     }
 
     /// Pushes to the one layer of a topic.

@@ -1,6 +1,7 @@
 //! What layers are shown on: a page, one moment, or a series of moments.
 
 use crate::{DrawnTable, Motion, Page, Role, ViewError, WallSurface};
+use record::ClumpRecord;
 use stream::Table;
 
 /// One thing to show, without its states.
@@ -12,6 +13,8 @@ pub struct LayerHead {
     pub name: String,
     /// Names that its field `material` counts.
     pub kinds: Vec<String>,
+    /// Shapes of clumps.
+    pub clumps: Vec<ClumpRecord>,
     /// Its motion as one body; a layer that moves has one state, that at t = 0.
     pub motion: Motion,
 }
@@ -19,12 +22,19 @@ pub struct LayerHead {
 impl LayerHead {
     /// A layer at rest, without materials.
     pub fn new(role: Role, name: &str) -> LayerHead {
-        LayerHead { role, name: name.to_owned(), kinds: Vec::new(), motion: Motion::default() }
+        LayerHead {
+            role,
+            name: name.to_owned(),
+            kinds: Vec::new(),
+            clumps: Vec::new(),
+            motion: Motion::default(),
+        }
     }
 
     /// The layer with the columns of one state.
     pub(crate) fn part<'a>(&self, table: &'a Table) -> DrawnTable<'a> {
-        DrawnTable { role: self.role, name: self.name.clone(), table, kinds: self.kinds.clone() }
+        let (kinds, clumps) = (self.kinds.clone(), self.clumps.clone());
+        DrawnTable { role: self.role, name: self.name.clone(), table, kinds, clumps }
     }
 }
 
@@ -43,9 +53,10 @@ pub trait Show {
 
 impl Show for Page {
     fn layer(&mut self, head: LayerHead) -> usize {
-        let LayerHead { role, name, kinds, motion } = head;
+        let LayerHead { role, name, kinds, clumps, motion } = head;
         let layer = Page::layer(self, role, &name);
         self.kinds(layer, kinds);
+        self.clumps(layer, &clumps);
         self.moves(layer, motion);
         layer
     }

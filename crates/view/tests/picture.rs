@@ -20,8 +20,13 @@ fn table(spheres: &[[f64; 4]], load: &[f64]) -> Table {
 
 /// Seen from 10 m in front, looking at 0; 400 pixels high at 10 m are 5.358 m.
 fn seen<'a>(parts: &[(Role, &'a Table)], colour: &str) -> Image {
-    let part =
-        |&(role, table): &(Role, &'a Table)| DrawnTable { role, name: "test".into(), table, kinds: vec![] };
+    let part = |&(role, table): &(Role, &'a Table)| DrawnTable {
+        role,
+        name: "test".into(),
+        table,
+        kinds: vec![],
+        clumps: vec![],
+    };
     let parts: Vec<DrawnTable> = parts.iter().map(part).collect();
     let options = PictureOptions {
         width: 600,
@@ -87,7 +92,8 @@ fn sheet(y: f64, motion: Motion) -> WallSurface {
 
 /// The same eye as [`seen`], at a time.
 fn seen_with(surfaces: &[WallSurface], grain: &Table, time: f64, cut: bool) -> Image {
-    let part = DrawnTable { role: Role::Grains, name: "test".into(), table: grain, kinds: vec![] };
+    let part =
+        DrawnTable { role: Role::Grains, name: "test".into(), table: grain, kinds: vec![], clumps: vec![] };
     let options = PictureOptions {
         width: 600,
         height: 400,
@@ -142,7 +148,8 @@ fn a_floor_is_drawn_below_the_grains_and_not_above() {
     let floor =
         WallSurface { name: "floor".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() };
     let grain = table(&[[0.0, 0.0, 0.0, 0.5]], &[1.0]);
-    let part = DrawnTable { role: Role::Grains, name: "test".into(), table: &grain, kinds: vec![] };
+    let part =
+        DrawnTable { role: Role::Grains, name: "test".into(), table: &grain, kinds: vec![], clumps: vec![] };
     let options = PictureOptions { width: 600, height: 400, ..PictureOptions::default() };
     let image = picture::draw(&[part], &[floor], &options).expect("drawn");
     let tinted = |rows: std::ops::Range<u32>| {
@@ -167,13 +174,19 @@ fn a_grain_casts_a_shadow_on_the_floor_and_on_wall_spheres() {
     let walls = table(&walls, &vec![0.0; walls.len()]);
     let draw = |grain: [f64; 4], floor: &[WallSurface], walls: Option<&Table>| {
         let grain = table(&[grain, [0.9, 0.9, 0.0, 0.1], [-0.9, -0.9, 0.0, 0.1]], &[1.0; 3]);
-        let mut parts =
-            vec![DrawnTable { role: Role::Grains, name: "test".into(), table: &grain, kinds: vec![] }];
+        let mut parts = vec![DrawnTable {
+            role: Role::Grains,
+            name: "test".into(),
+            table: &grain,
+            kinds: vec![],
+            clumps: vec![],
+        }];
         parts.extend(walls.map(|table| DrawnTable {
             role: Role::Walls,
             name: "walls".into(),
             table,
             kinds: vec![],
+            clumps: vec![],
         }));
         let options = PictureOptions {
             width: 600,
@@ -196,7 +209,7 @@ fn a_grain_casts_a_shadow_on_the_floor_and_on_wall_spheres() {
 fn moments_of_a_film_are_seen_by_the_same_eye_in_the_same_colours() {
     let walls = table(&[[-2.0, 0.0, 0.0, 0.2]], &[0.0]);
     let moments = [[0.0, 0.0, 4.0, 0.2], [3.0, 0.0, 0.0, 0.2]].map(|grain| table(&[grain], &[grain[2]]));
-    let part = |role, table| DrawnTable { role, name: "test".into(), table, kinds: vec![] };
+    let part = |role, table| DrawnTable { role, name: "test".into(), table, kinds: vec![], clumps: vec![] };
     let options = PictureOptions {
         width: 600,
         height: 400,
@@ -233,7 +246,8 @@ fn a_stray_does_not_shrink_the_picture() {
         .collect();
     spheres.push([1e3, 0.0, 0.0, 0.05]);
     let table = table(&spheres, &vec![0.5; spheres.len()]);
-    let part = DrawnTable { role: Role::Grains, name: "heap".into(), table: &table, kinds: vec![] };
+    let part =
+        DrawnTable { role: Role::Grains, name: "heap".into(), table: &table, kinds: vec![], clumps: vec![] };
     let options = PictureOptions {
         width: 600,
         height: 400,
@@ -260,7 +274,8 @@ fn heap(count: usize) -> Table {
 
 fn draw_heap(count: usize, threads: usize) -> Image {
     let heap = heap(count);
-    let part = DrawnTable { role: Role::Grains, name: "heap".into(), table: &heap, kinds: vec![] };
+    let part =
+        DrawnTable { role: Role::Grains, name: "heap".into(), table: &heap, kinds: vec![], clumps: vec![] };
     let options =
         PictureOptions { colour: Some("load".into()), time: Some(0.5), ..PictureOptions::default() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
@@ -286,7 +301,8 @@ fn a_hundred_thousand_spheres_at_full_size_take_seconds_at_most() {
 #[test]
 fn what_cannot_be_drawn_is_named() {
     let table = table(&[[0.0, 0.0, 0.0, 1.0]], &[0.0]);
-    let part = DrawnTable { role: Role::Grains, name: "run".into(), table: &table, kinds: vec![] };
+    let part =
+        DrawnTable { role: Role::Grains, name: "run".into(), table: &table, kinds: vec![], clumps: vec![] };
     let options = PictureOptions { colour: Some("warmth".into()), ..PictureOptions::default() };
     let message =
         picture::draw(std::slice::from_ref(&part), &[], &options).expect_err("no such field").to_string();

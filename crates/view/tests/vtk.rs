@@ -25,7 +25,7 @@ fn table(rows: usize, moves: bool) -> Table {
 
 fn everything() -> PolyData {
     let (grains, walls) = (table(3, true), table(2, false));
-    let part = |role, table| DrawnTable { role, name: "test".into(), table, kinds: vec![] };
+    let part = |role, table| DrawnTable { role, name: "test".into(), table, kinds: vec![], clumps: vec![] };
     let plane = Plane::new(Vec3::zeros(), Vec3::z()).expect("a direction");
     let corners = vec![Vec3::zeros(), Vec3::x(), Vec3::y()];
     let mesh = TriMesh::new(corners, vec![[0, 1, 2]]).expect("whole");

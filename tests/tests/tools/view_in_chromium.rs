@@ -1,6 +1,7 @@
 //! The HTML page, opened from a file in a real browser: it draws, it plays, and it uses no network.
 
 mod chromium;
+mod clumps;
 mod extras;
 mod hands_on;
 mod outlines;

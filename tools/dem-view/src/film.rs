@@ -1,6 +1,6 @@
 //! A film of a run: GIF, or MP4 where ffmpeg is there.
 
-use crate::{args::Args, formats::Format, inputs};
+use crate::{args::Args, counts, formats::Format, inputs};
 use anyhow::Context;
 use cli::{Output, OutputStream, Progress, Report};
 use view::{
@@ -28,11 +28,13 @@ pub fn film(args: &Args, output: &Output, format: Format) -> anyhow::Result<Repo
     let [first, last] = [times[0], times[times.len() - 1]];
     let seconds = times.len() as f64 * shown;
     let summary = format!(
-        "{}: {} pictures, t = {first:.3} to {last:.3} s, shown in {seconds:.2} s",
+        "{}: {} pictures, t = {first:.3} to {last:.3} s, shown in {seconds:.2} s{}",
         output.name(),
-        times.len()
+        times.len(),
+        counts::words(reel.grains())
     );
     Ok(Report::new(summary)
+        .with_all(&counts::fields(reel.grains()))
         .with("pictures", times.len())
         .with("from_s", first)
         .with("to_s", last)
@@ -46,10 +48,11 @@ fn draw_all(reel: &Reel, args: &Args, output: &Output, format: Format) -> anyhow
     let (mut sink, shown) = Sink::open(reel, args, output, format)?;
     // Options without effect so far: most act in the first picture, and are looked at once.
     let mut doubtful = args.doubtful(&args.picture(format));
-    let mut largest = 0;
+    let (mut largest, mut outside) = (0, [0; 2]);
     for &time in reel.times() {
         let image = reel.draw(time)?;
         largest = largest.max(image.subject);
+        outside = outside.max(image.outside);
         let mut idle = Vec::new();
         for (name, without) in doubtful {
             if reel.draw_with(time, &without)? == image {
@@ -65,6 +68,7 @@ fn draw_all(reel: &Reel, args: &Args, output: &Output, format: Format) -> anyhow
         cli::warn(&format!("{name} changes nothing in this film: leave it out"));
     }
     args.warn_of_size(largest, reel.size());
+    counts::warn_of_outside(outside, "a picture of the film");
     Ok(shown)
 }
 

@@ -1,6 +1,7 @@
 //! Shows runs, walls and clouds: one HTML page that plays, a picture, a film, or files for ParaView.
 
 mod args;
+mod counts;
 mod diagrams;
 mod film;
 mod formats;
@@ -48,10 +49,13 @@ fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {
         }
     }
     args.warn_of_size(image.subject, [image.width, image.height]);
+    counts::warn_of_outside(image.outside, "the picture");
     let mut out: OutputStream = output.open()?;
     out.write_all(&image.png()?).with_context(|| output.name())?;
     out.commit()?;
     let when = options.time.map_or_else(String::new, |t| format!(" at t = {t:.6} s"));
-    let summary = format!("{}: {} x {} pixels{when}", output.name(), image.width, image.height);
-    Ok(Report::new(summary).with("time_s", options.time).with("layers", seen))
+    let (size, grains) = (format!("{} x {} pixels", image.width, image.height), moment.grains());
+    let summary = format!("{}: {size}{when}{}", output.name(), counts::words(grains));
+    let report = Report::new(summary).with("time_s", options.time).with("layers", seen);
+    Ok(report.with_all(&counts::fields(grains)))
 }

@@ -1,6 +1,6 @@
 //! The HTML page.
 
-use crate::{args::Args, diagrams::Diagrams, inputs};
+use crate::{args::Args, counts, diagrams::Diagrams, inputs};
 use anyhow::Context;
 use cli::{Output, Report};
 use view::{Page, PageContent, PageOptions};
@@ -46,7 +46,10 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
     };
     let errors: serde_json::Map<String, serde_json::Value> =
         kept.field_errors.iter().map(|(name, error)| (name.clone(), (*error).into())).collect();
-    Ok(Report::new(format!("{}: {:.1} MB{frames}{packing}", output.name(), bytes as f64 / 1e6))
+    let grains = page.grains();
+    let size = format!("{:.1} MB{frames}{packing}", bytes as f64 / 1e6);
+    Ok(Report::new(format!("{}: {size}{}", output.name(), counts::words(grains)))
+        .with_all(&counts::fields(grains))
         .with("bytes", bytes)
         .with("frames_given", kept.given)
         .with("frames_kept", kept.kept)

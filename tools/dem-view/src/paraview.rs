@@ -1,6 +1,6 @@
 //! Files for ParaView: one moment, or a series of them.
 
-use crate::{args::Args, inputs};
+use crate::{args::Args, counts, inputs};
 use anyhow::Context;
 use cli::{Output, Report};
 use view::{
@@ -17,8 +17,10 @@ pub fn vtp(args: &Args, output: &Output) -> anyhow::Result<Report> {
     let mut out = output.open()?;
     data.write(&mut out).with_context(|| output.name())?;
     out.commit()?;
-    let summary = format!("{}: {} points, {} triangles", output.name(), data.len(), data.faces.len());
-    Ok(Report::new(summary).with("time_s", moment.time()).with("layers", seen))
+    let (size, grains) = (format!("{} points, {} triangles", data.len(), data.faces.len()), moment.grains());
+    let summary = format!("{}: {size}{}", output.name(), counts::words(grains));
+    let report = Report::new(summary).with("time_s", moment.time()).with("layers", seen);
+    Ok(report.with_all(&counts::fields(grains)))
 }
 
 /// A folder of files, and the list that says which of them shows what at which time.

@@ -106,7 +106,7 @@ mod tests {
                 rgba[4 * (y * 64 + x)..][..3].copy_from_slice(&[200, 40, 40]);
             }
         }
-        Image { width: 64, height: 64, rgba, subject: 64 }
+        Image { width: 64, height: 64, rgba, subject: 64, outside: [0; 2] }
     }
 
     fn film() -> Vec<u8> {

@@ -82,7 +82,8 @@ mod tests {
 
     #[test]
     fn white_stays_white_and_a_colour_seen_comes_back_nearly() {
-        let mut image = Image { width: 64, height: 64, rgba: vec![255; 64 * 64 * 4], subject: 64 };
+        let mut image =
+            Image { width: 64, height: 64, rgba: vec![255; 64 * 64 * 4], subject: 64, outside: [0; 2] };
         for (n, pixel) in image.rgba.chunks_exact_mut(4).enumerate().take(600) {
             pixel[..3].copy_from_slice(&[(n / 4) as u8, 90, 200 - (n / 4) as u8]);
         }

@@ -2,7 +2,7 @@
 
 use super::Palette;
 use crate::series::Series;
-use crate::{Image, PictureOptions, Survey, ViewError, picture};
+use crate::{GrainCount, Image, PictureOptions, Survey, ViewError, picture};
 use stream::Table;
 
 /// Pictures that the colours of a GIF are chosen by.
@@ -39,6 +39,11 @@ impl Reel {
     /// Times of its pictures [s].
     pub fn times(&self) -> &[f64] {
         &self.times
+    }
+
+    /// Most grains of a picture.
+    pub fn grains(&self) -> GrainCount {
+        self.survey.grains()
     }
 
     /// Width and height of its pictures [pixel].

@@ -7,7 +7,7 @@ layout(depth_greater) out highp float gl_FragDepth;
 #endif
 precision highp float;
 flat in vec3 centre, colour;
-flat in float size;
+flat in float size, tag;
 uniform vec2 nearFar, picture;    // picture: samples
 uniform vec2 lens;                // of the shorter way, scaled to the picture
 uniform float flatView;
@@ -15,7 +15,7 @@ uniform vec4 cut;
 uniform float cutLeast, cutEye;   // cutEye: where the eye is along the slice's normal
 uniform vec3 cutSeen;             // that normal, in seen coordinates
 layout(location = 0) out vec4 lit;
-layout(location = 1) out vec4 normalOut;
+layout(location = 1) out vec4 normalOut;  // a: the tag of a clump, whose light comes later, in light.frag; or 1
 
 void main() {
   vec2 here = (2.0 * gl_FragCoord.xy / picture - 1.0) / lens;
@@ -46,6 +46,7 @@ void main() {
   gl_FragDepth = clamp((depth - nearFar.x) / (nearFar.y - nearFar.x), 0.0, 1.0);
   float lamp = max(0.0, dot(normal, vec3(-0.4243, 0.7071, -0.5657)));
   float bright = face ? 0.92 : 0.64 + 0.14 * normal.y + 0.38 * lamp;
-  lit = vec4(min(colour * bright + (face ? 0.0 : 0.10 * pow(lamp, 12.0)), 1.0), 1.0);
-  normalOut = vec4(0.5 + 0.5 * normal, 1.0);
+  bool later = tag < 0.999 && !face;
+  lit = vec4(later ? colour : min(colour * bright + (face ? 0.0 : 0.10 * pow(lamp, 12.0)), 1.0), 1.0);
+  normalOut = vec4(0.5 + 0.5 * normal, later ? tag : 1.0);
 }

@@ -1,16 +1,14 @@
-#version 300 es
 // A sphere is drawn on a point, a square that covers its outline as the eye sees it; on two triangles where that is larger
 // than points can be.
 // Seen coordinates: x right, y up, z forward, the eye at 0.
-precision highp float;
 layout(location = 0) in vec3 position;  // share of the frame's box
 layout(location = 1) in float radius;   // share of the frame's range
 layout(location = 2) in float red;      // the field, or the red of a scan
 layout(location = 3) in float green;
 layout(location = 4) in float blue;
 layout(location = 5) in float marked;
+layout(location = 6) in float kin;      // below 1: a number for the clump that it is a part of
 uniform vec3 boxLo, boxSize, radiusOf;  // radiusOf: lowest, range, factor
-uniform vec2 valueOf[3];
 uniform mat3 turn, pose;                // pose, poseShift: where the layer is now
 uniform vec3 poseShift;
 uniform vec3 eye;
@@ -19,22 +17,11 @@ uniform vec2 nearFar;
 uniform float flatView, pixel;          // pixel: size of a pixel at distance 1 (or at all, when flat)
 uniform vec4 cut;                       // what is shown: cutLeast <= cut.xyz . place <= cut.w
 uniform float cutLeast;
-uniform int mode, axis;                 // mode 0 plain, 1 map, 2 kinds, 3 own colours
 uniform int asPoints;                   // 0 only what is larger than `most`, on triangles; 1 only the rest; 2 all, as dots
 uniform float most;                     // pixels
-uniform vec2 shown;
-uniform vec3 plain, kinds[8], markColour;
-uniform sampler2D map;
+uniform vec3 markColour;
 flat out vec3 centre, colour;
-flat out float size;
-
-vec3 coloured(vec3 place) {
-  float value = axis < 0 ? valueOf[0].x + red * valueOf[0].y : place[axis];
-  if (mode == 1) return texture(map, vec2(clamp((value - shown.x) / (shown.y - shown.x), 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
-  if (mode == 2) return kinds[int(value + 0.5) % 8];
-  if (mode == 3) return vec3(value, valueOf[1].x + green * valueOf[1].y, valueOf[2].x + blue * valueOf[2].y) / 255.0;
-  return plain;
-}
+flat out float size, tag;
 
 // The place on the picture, at the depth of the sphere's nearest point.
 vec4 clip(vec3 seen) {
@@ -75,6 +62,7 @@ void main() {
   bool hidden = along - aside > cut.w || along + aside < cutLeast || (asPoints == 0) != (gl_PointSize > most) && asPoints < 2
     || (flatView < 0.5 && (centre.z < nearFar.x || away < 0.02 * size * size));
   if (hidden) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
-  colour = mix(coloured(place), markColour, 0.85 * marked);
+  tag = kin;
+  colour = mix(coloured(place, vec3(red, green, blue)), markColour, 0.85 * marked);
   gl_Position = clip(asPoints == 0 ? corner_() : centre);
 }

@@ -10,6 +10,7 @@ const VIEWS = { iso: [0.62, -0.94, 0.62], front: [0, -1, 0], right: [1, 0, 0], t
 const camera = {
   yaw: 0, pitch: 0, distance: 1, target: [0, 0, 0], flat: false, rests: false,
   fitted: false,  // whether it stands where everything is seen, and has not been moved since
+  wide: false,    // whether everything includes the few grains that are far from all others
 
   look(direction) {
     this.fitted = false;
@@ -37,13 +38,17 @@ const camera = {
     const everything = [...run.layers, ...run.surfaces];
     const shown = everything.filter((l) => !state.hidden.has(l) && l.outline.length);
     const axes = this.axes();
-    const seen = (shown.length ? shown : everything).flatMap((l) => l.outline).map((p) => axes.map((a) => dot3(a, minus3(p, middle))));
+    const places = (l) => (this.wide && l.strays?.length ? l.strays : l.outline);
+    const seen = (shown.length ? shown : everything).flatMap(places).map((p) => axes.map((a) => dot3(a, minus3(p, middle))));
     const ways = covered(width, height).map((edges) => ({ edges, ...this.within(edges, seen, width, height) }));
     const best = ways.reduce((a, b) => (b.distance < a.distance ? b : a));
     this.target = [0, 1, 2].map((k) => axes.reduce((sum, a, n) => sum + a[k] * best.aim[n], 0));
     this.distance = best.distance;
     this.fitted = true;
   },
+
+  // Whether shown grains are far from all others.
+  leaves() { return run.layers.some((l) => l.strays.length && !state.hidden.has(l)); },
 
   within([top, right, bottom, left], seen, width, height) {
     const short = Math.min(width, height);
@@ -74,7 +79,7 @@ const camera = {
 
   zoom(factor) {
     this.fitted = false;
-    this.distance = Math.max(1e-4 * halfDiagonal, Math.min(60 * halfDiagonal, this.distance * factor));
+    this.distance = Math.max(1e-4 * halfDiagonal, Math.min(60 * reachOfAll, this.distance * factor));
   },
 
   // Moves what is looked at by so many pixels of a window whose shorter side has `short`.

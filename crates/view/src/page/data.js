@@ -61,6 +61,8 @@ function frameAt(layer, time) {
 const box = { lo: run.lo, hi: run.hi };
 const middle = box.lo.map((lo, k) => 0.5 * (lo + box.hi[k]));
 const halfDiagonal = Math.max(1e-9, Math.hypot(...box.lo.map((lo, k) => 0.5 * (box.hi[k] - lo))));
+// The same with the grains that are far from all others.
+const reachOfAll = run.layers.flatMap((l) => l.strays).reduce((most, p) => Math.max(most, Math.hypot(...p.map((x, k) => x - middle[k]))), halfDiagonal);
 
 // Colours by a name: what to show, in which range.
 const state = {

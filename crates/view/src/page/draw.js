@@ -56,6 +56,7 @@ const painter = {
     const all = this.layers.filter((b) => !state.hidden.has(b.layer));
     const isGlass = (b) => walls && b.layer.role === "walls";
     this.drawn = 0;
+    this.smooth = false;
     const glass = all.filter((b) => isGlass(b) && state.opacity > 0);
     this.solid.resize(...size);
     this.glass.resize(...(glass.length ? size : [1, 1]));
@@ -67,6 +68,7 @@ const painter = {
     this.widen(size);
     for (const b of all) if (!isGlass(b)) this.spheres(b, view);
     rods.draw(view, size);
+    solids.draw(view, size);
     gl.viewport(0, 0, ...size);
     sheets.drawSolid(view);
     gl.useProgram(this.ball.made);
@@ -81,9 +83,10 @@ const painter = {
     const short = Math.min(width, height);
     const eye = camera.eye();
     const centre = Math.hypot(...eye);
-    const near = camera.flat ? centre - 4 * halfDiagonal - camera.distance : Math.max(1e-4 * camera.distance, centre - 4 * halfDiagonal);
+    const reach = Math.max(4 * halfDiagonal, 1.01 * reachOfAll);
+    const near = camera.flat ? centre - reach - camera.distance : Math.max(1e-4 * camera.distance, centre - reach);
     const focal = camera.flat ? short / (2 * halfView * camera.distance) : short / (2 * halfView);
-    return { eye, focal, nearFar: [near, centre + 4 * halfDiagonal], clip: [2 * focal / width, 2 * focal / height] };
+    return { eye, focal, nearFar: [near, centre + reach], clip: [2 * focal / width, 2 * focal / height] };
   },
 
   // A point whose centre is outside of the picture is not drawn at all: the picture is made wider than its buffer.
@@ -110,9 +113,7 @@ const painter = {
     gl.uniform1f(at("most"), this.most);
     gl.uniform1f(at("pixel"), 1 / view.focal);
     gl.uniform3fv(at("markColour"), [0.9, 0.22, 0.18]);
-    gl.uniform3fv(at("kinds[0]"), run.kinds.flat().map((c) => c / 255));
-    gl.uniform3fv(at("plain"), run.wall.map((c) => c / 255));
-    gl.uniform1i(at("map"), 0);
+    this.setColours(this.ball);
   },
 
   spheres(buffers, view) {
@@ -121,6 +122,7 @@ const painter = {
     const frame = frameAt(layer, clock[state.frame]);
     const pose = poseOf(layer.motion, middle, clock[state.frame]);
     const scale = sizeOf(layer);
+    this.smooth ||= frame.clumps > 0 && !this.dots;
     gl.bindVertexArray(buffers.array);
     gl.uniform3fv(at("boxLo"), frame.lo.map((lo, k) => lo - middle[k]));
     gl.uniform3fv(at("boxSize"), frame.hi.map((hi, k) => hi - frame.lo[k]));
@@ -153,12 +155,18 @@ const painter = {
     buffers.column(0, frame.position, 3, 2, each);
     buffers.column(1, frame.radius[0], 1, 2, each);
     buffers.marks(each);
+    buffers.tags(frame, each);
     this.colours(buffers, frame, each);
   },
 
   colours(buffers, frame, each) {
-    const { at } = this.ball;
-    const layer = buffers.layer;
+    const paint = this.paint(buffers.layer, frame);
+    paint.columns.forEach((column, n) => buffers.column(2 + n, column ? column[0] : null, 1, column ? column[3] : 1, each));
+    this.setPaint(this.ball, paint);
+  },
+
+  // What a layer is coloured by in a frame: up to three columns, and how a program reads them.
+  paint(layer, frame) {
     const axis = ["x", "y", "z"].indexOf(state.field);
     const main = layer.role === mainRole;
     // A scan beside grains keeps the colours it came with.
@@ -167,16 +175,25 @@ const painter = {
     const sizes = state.field === "size" && !layer.pointRadius;
     const coloured = own || (main && (sizes || fieldOf(layer, state.field) >= 0));
     const diameter = frame.radius.map((v, k) => (k === 1 || k === 2 ? 2 * v : v));
-    for (let n = 0; n < 3; n++) {
-      const column = coloured && (own || axis < 0) && names[n] ? (sizes && !own ? diameter : frame.fields[fieldOf(layer, names[n])]) : null;
-      buffers.column(2 + n, column ? column[0] : null, 1, column ? column[3] : 1, each);
-      gl.uniform2f(at(`valueOf[${n}]`), column ? column[1] : 0, column ? column[2] - column[1] : 0);
-    }
+    const column = (name) => (sizes && !own ? diameter : frame.fields[fieldOf(layer, name)]);
+    const columns = [0, 1, 2].map((n) => (coloured && (own || axis < 0) && names[n] ? column(names[n]) : null));
     const about = own || !coloured ? null : describe(state.field);
-    gl.uniform1i(at("mode"), !coloured ? 0 : own ? 3 : about.kinds ? 2 : 1);
-    gl.uniform1i(at("axis"), own ? -1 : axis);
-    const shift = axis < 0 ? 0 : middle[axis];
+    const kinds = about?.name === "body" && about.all[1] >= run.kinds.length ? 4 : 2;
+    return { columns, mode: !coloured ? 0 : own ? 3 : about.kinds ? kinds : 1, axis: own ? -1 : axis };
+  },
+
+  setPaint({ at }, { columns, mode, axis }) {
+    columns.forEach((column, n) => gl.uniform2f(at(`valueOf[${n}]`), column ? column[1] : 0, column ? column[2] - column[1] : 0));
+    gl.uniform1i(at("mode"), mode);
+    gl.uniform1i(at("axis"), axis);
+    const shift = middle[["x", "y", "z"].indexOf(state.field)] ?? 0;
     gl.uniform2f(at("shown"), state.shown[0] - shift, state.shown[1] - shift);
+  },
+
+  setColours({ at }) {
+    gl.uniform3fv(at("kinds[0]"), run.kinds.flat().map((c) => c / 255));
+    gl.uniform3fv(at("plain"), run.wall.map((c) => c / 255));
+    gl.uniform1i(at("map"), 0);
   },
 
   compose(view, quality, glass) {
@@ -203,6 +220,7 @@ const painter = {
     gl.uniform1i(at("sheets"), sheets.glass().length ? 1 : 0);
     gl.uniform1f(at("reach"), 4 * typicalRadius());
     gl.uniform1i(at("samples"), quality);
+    gl.uniform1i(at("smoothed"), this.smooth ? 1 : 0);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   },
 };

@@ -7,7 +7,7 @@ function findAt(x, y) {
   const veil = (l) => mainRole !== "walls" && l.role === "walls" && state.opacity < 0.999;
   const shown = run.layers.filter((l) => !isRods(l) && !state.hidden.has(l) && !(l.role === "walls" && state.opacity === 0));
   const nearest = (hits) => hits.filter(Boolean).sort((a, b) => a.miss - b.miss || a.depth - b.depth)[0] || null;
-  const solid = nearest([...shown.filter((l) => !veil(l)).map((l) => sphereOn(ray, l)), ...sheets.solid().map((p) => faceOn(ray, p))]);
+  const solid = nearest([...shown.filter((l) => !veil(l)).map((l) => sphereOn(ray, l)), ...solids.shown().map((p) => solidOn(ray, p)), ...sheets.solid().map((p) => faceOn(ray, p))]);
   // A plane is ground: a click on it lets go.
   const glass = sheets.glass().filter((p) => !p.surface.normal);
   return solid || nearest([...shown.filter(veil).map((l) => sphereOn(ray, l)), ...glass.map((p) => faceOn(ray, p))]);

@@ -57,12 +57,15 @@ class Target {
   }
 }
 
+// A number for a clump, to tell it from its neighbours; 255 is none.
+const tagOf = (body) => 1 + (Math.imul(body, 0x9e3779b9) >>> 24) % 254;
+
 // The columns of a layer on the graphics card; a column that is there already is not sent again.
 class Buffers {
   constructor(layer) {
     this.layer = layer;
     this.array = gl.createVertexArray();
-    this.columns = [0, 1, 2, 3, 4, 5].map(() => ({ buffer: gl.createBuffer(), number: null }));
+    this.columns = [0, 1, 2, 3, 4, 5, 6].map(() => ({ buffer: gl.createBuffer(), number: null }));
     this.marked = false;
   }
   // `each` says what a row is: 1, an instance (a square), or 0, a vertex (a point).
@@ -90,5 +93,21 @@ class Buffers {
     gl.enableVertexAttribArray(5);
     gl.vertexAttribPointer(5, 1, gl.UNSIGNED_BYTE, true, 0, 0);
     gl.vertexAttribDivisor(5, each);
+  }
+  // Which clump each row is a part of; 255: none. Rows are in the order of ids, in which those of a clump are neighbours.
+  tags(frame, each) {
+    const body = frame.clumps ? frame.fields[fieldOf(this.layer, "body")] : null;
+    if (!body || body[0] === null) { gl.disableVertexAttribArray(6); gl.vertexAttrib1f(6, 1); return; }
+    const column = this.columns[6];
+    gl.bindBuffer(gl.ARRAY_BUFFER, column.buffer);
+    if (column.number !== body[0]) {
+      const of = numbersOf(body[0], body[3]);
+      const tag = (v, i) => (v === of[i - 1] || v === of[i + 1] ? tagOf(v) : 255);
+      gl.bufferData(gl.ARRAY_BUFFER, Uint8Array.from(of, tag), gl.DYNAMIC_DRAW);
+      column.number = body[0];
+    }
+    gl.enableVertexAttribArray(6);
+    gl.vertexAttribPointer(6, 1, gl.UNSIGNED_BYTE, true, 0, 0);
+    gl.vertexAttribDivisor(6, each);
   }
 }

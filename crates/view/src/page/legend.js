@@ -109,17 +109,29 @@ function showGnomon() {
   }).join("");
 }
 
+// "50 000 grains", or with clumps "120 clumps of 840 spheres, 30 spheres".
+function grainWords(layers) {
+  const sum = (of) => layers.map((l) => of(frameAt(l, clock[state.frame]))).reduce((a, b) => a + b, 0);
+  const [count, clumps, members] = [sum((f) => f.count), sum((f) => f.clumps || 0), sum((f) => f.members || 0)];
+  const words = (n, word) => `${grouped(n)} ${n === 1 ? word : `${word}s`}`;
+  if (!clumps) return count ? words(count, "grain") : "";
+  const alone = count > members ? `, ${words(count - members, "sphere")}` : "";
+  return `${words(clumps, "clump")} of ${words(members, "sphere")}${alone}`;
+}
+
 function showCounts() {
   const count = (role) => run.layers.filter((l) => l.role === role && !state.hidden.has(l))
     .reduce((sum, l) => sum + frameAt(l, clock[state.frame]).count, 0);
-  const words = [["grains", "grains"], ["walls", "wall spheres"], ["cloud", "points"]];
+  const grains = grainWords(run.layers.filter((l) => l.role === "grains" && !state.hidden.has(l)));
+  const words = [["walls", "wall spheres"], ["cloud", "points"]];
   const faces = run.surfaces.filter((s) => !s.normal && !state.hidden.has(s)).reduce((sum, s) => sum + s.faceCount, 0);
   const meshes = faces ? [`${grouped(faces)} faces`] : [];
   const bonds = bondCounts();
   const bonded = bonds ? [`${grouped(bonds.whole)} bonds, ${grouped(bonds.broken)} broken`] : [];
   const share = state.grains < 1 && count("grains") ? [`grains drawn at ${Math.round(100 * state.grains)} % of their size`] : [];
-  byId("count").textContent = [...words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${count(role) === 1 ? word.slice(0, -1) : word}`), ...meshes, ...bonded, ...share].join(" · ");
-  byId("drawn").textContent = painter.dots ? "drawn as points" : "";
+  byId("count").textContent = [...(grains ? [grains] : []), ...words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${count(role) === 1 ? word.slice(0, -1) : word}`), ...meshes, ...bonded, ...share].join(" · ");
+  const far = camera.fitted && !camera.wide && camera.leaves() ? ["some grains are far from all others: F shows them"] : [];
+  byId("drawn").textContent = [...(painter.dots ? ["drawn as points"] : []), ...far].join(" · ");
   byId("clock").textContent = clock.length > 1 || clock[0] > 0 ? `t = ${clock[state.frame].toFixed(timeDecimals)} s` : "";
 }
 

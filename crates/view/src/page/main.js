@@ -81,6 +81,7 @@ function start() {
     painter.start();
     sheets.start();
     rods.start();
+    solids.start();
   } catch (problem) {
     return fail(`The graphics driver refused this page's drawing program: ${problem.message}`);
   }

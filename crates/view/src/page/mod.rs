@@ -8,11 +8,13 @@ mod exact;
 mod fit;
 mod pack;
 mod panes;
+mod solids;
 mod timeline;
 mod write;
 
 use crate::{
-    Camera, Diagram, Map, Motion, Role, ViewError, WallSurface,
+    Camera, Diagram, GrainCount, Map, Motion, Role, ViewError, WallSurface,
+    bodies::{bodies, even_out},
     classes::Sizes,
     extras, field,
     outline::Outline,
@@ -22,6 +24,8 @@ use crate::{
 };
 use exact::Exact;
 use pack::Packed;
+use record::{ClumpRecord, column::RADIUS};
+use solids::PageSolids;
 use stream::{Table, Values};
 use timeline::Timeline;
 
@@ -100,6 +104,10 @@ pub(crate) struct PageLayer {
     pub point_radius: f64,
     /// Places that stand out, as pushed [m].
     pub outline: Outline,
+    /// The same of grains that are far from all others; none where there is none.
+    pub strays: Outline,
+    /// Clumps that are polyhedra.
+    pub solids: PageSolids,
     /// How it moves besides.
     pub motion: Motion,
     /// The positions to the last bit, where regions are drawn.
@@ -163,6 +171,8 @@ impl Page {
             frames: Timeline::default(),
             point_radius: 0.0,
             outline: Outline::default(),
+            strays: Outline::default(),
+            solids: PageSolids::default(),
             motion: Motion::default(),
             exact: None,
             reach: [0.0; 2],
@@ -173,6 +183,11 @@ impl Page {
     /// Names the kinds that the field `material` of a layer counts.
     pub fn kinds(&mut self, layer: usize, kinds: Vec<String>) {
         self.layers[layer].kinds = kinds;
+    }
+
+    /// Shapes of the clumps of a layer.
+    pub fn clumps(&mut self, layer: usize, clumps: &[ClumpRecord]) {
+        self.layers[layer].solids = PageSolids::of(clumps);
     }
 
     /// Lets a layer move as one body; what is pushed is where its spheres are at t = 0.
@@ -211,22 +226,38 @@ impl Page {
         if moving && spheres.sized {
             self.sizes.add(spheres.radius.iter().map(|r| 2.0 * r));
         }
+        let bodies = if moving { bodies(table) } else { Vec::new() };
         if layer.role.is_rods() {
             layer.add_reach(table, &spheres.radius);
         } else {
-            layer.outline.add_spheres(&spheres, layer.role != Role::Walls);
+            layer.outline.add_spheres(&spheres, &bodies, layer.role != Role::Walls);
+            if layer.outline.leaves_out(&spheres) {
+                layer.strays.add_spheres(&spheres, &[], false);
+            }
         }
         let mut columns = Vec::new();
         for field in &mut layer.fields {
-            let values = field::values(table, &field.name).unwrap_or_else(|| vec![0.0; table.rows()]);
+            let mut values = field::values(table, &field.name).unwrap_or_else(|| vec![0.0; table.rows()]);
+            if !field.whole && field.name != RADIUS {
+                even_out(&mut values, &bodies);
+            }
             field.all = field.all.with(Range::of(&values));
             field.most = field.most.with(Range::of_most(&values));
             columns.push(values);
         }
-        let packed = Packed::new(time, &spheres, &columns, &layer.fields, layer.frames.last());
+        let mut packed = Packed::new(time, &spheres, &columns, &layer.fields, layer.frames.last());
+        packed.grains = GrainCount::with(spheres.len(), &bodies);
+        packed.solids = layer.solids.find(&spheres, &bodies, layer.frames.last());
         layer.frames.push(packed, self.stride);
         self.given += usize::from(moving);
         self.fit()
+    }
+
+    /// The grains of the last frame.
+    pub fn grains(&self) -> GrainCount {
+        let layers = self.layers.iter().filter(|l| l.role == Role::Grains);
+        let last = layers.filter_map(|l| l.frames.last()).map(|frame| frame.grains);
+        last.fold(GrainCount::default(), GrainCount::plus)
     }
 
     /// What became of the frames so far.

@@ -6,7 +6,7 @@
 //! ```
 
 use super::Field;
-use crate::{scale::Range, spheres::Spheres};
+use crate::{GrainCount, scale::Range, spheres::Spheres};
 use std::sync::Arc;
 
 /// How much wider than needed a box is made, so that the next frames fit in it too [–].
@@ -69,6 +69,10 @@ pub(crate) struct Packed {
     pub time: f64,
     /// How many spheres.
     pub count: usize,
+    /// How many grains they are.
+    pub grains: GrainCount,
+    /// Clumps that are polyhedra, see [`super::solids`].
+    pub solids: Arc<Vec<u8>>,
     /// The box of the positions [m].
     pub extent: [Range; 3],
     /// Positions: x, y, z of each, two bytes each.
@@ -109,6 +113,8 @@ impl Packed {
         Packed {
             time,
             count: spheres.len(),
+            grains: GrainCount::with(spheres.len(), &[]),
+            solids: Arc::default(),
             extent,
             position,
             radius: Column::new(radii, sizes, 2, last.map(|l| &l.radius)),
@@ -127,7 +133,9 @@ impl Packed {
 
     /// All columns of bytes.
     pub fn blobs(&self) -> impl Iterator<Item = &Arc<Vec<u8>>> {
-        [&self.position, &self.radius.bytes].into_iter().chain(self.fields.iter().map(|f| &f.bytes))
+        [&self.position, &self.radius.bytes, &self.solids]
+            .into_iter()
+            .chain(self.fields.iter().map(|f| &f.bytes))
     }
 }
 

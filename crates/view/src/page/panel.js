@@ -58,7 +58,13 @@ function lookFrom(name) {
   fitView();
 }
 
+// Everything but the few grains that are far from all others; once more: those too.
 function fitView() {
+  camera.wide = camera.fitted && !camera.wide;
+  refit();
+}
+
+function refit() {
   camera.fit(innerWidth, innerHeight);
   changed();
 }
@@ -112,7 +118,7 @@ function wire() {
   on("follow", "click", () => follow(!picked.follows));
   on("close", "click", () => pick(null));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", changed);
-  addEventListener("resize", () => { if (camera.fitted) fitView(); changed(); });
+  addEventListener("resize", () => { if (camera.fitted) refit(); changed(); });
   addEventListener("keydown", key);
   gestures();
 }

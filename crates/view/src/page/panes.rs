@@ -34,6 +34,8 @@ pub(super) struct Framed {
     pub panes: Vec<Pane>,
     /// Places that the camera must see to see each layer [m].
     pub outlines: Vec<Vec<Vec3>>,
+    /// The same with the strays; empty where there is none.
+    pub strays: Vec<Vec<Vec3>>,
     /// The box around everything [m].
     pub extent: [Range; 3],
 }
@@ -60,6 +62,13 @@ impl Page {
         };
         let layers = self.layers.iter().map(|l| on_its_way(&l.outline.points(), &l.motion));
         let outlines: Vec<Vec<Vec3>> = layers.collect();
+        let with_strays = |l: &PageLayer| {
+            let mut whole = l.outline.clone();
+            whole.add(&l.strays.points());
+            let places = whole.points();
+            if places == l.outline.points() { Vec::new() } else { on_its_way(&places, &l.motion) }
+        };
+        let strays = self.layers.iter().map(with_strays).collect();
         let mut all: Vec<Vec3> = outlines.concat();
         let is_mesh = |s: &WallSurface| matches!(s.shape, SurfaceShape::Mesh(_));
         let nothing_else = all.is_empty() && !self.surfaces.iter().any(is_mesh);
@@ -75,7 +84,7 @@ impl Page {
             all.extend(&outline);
             panes.push(Pane::new(&sheet, outline));
         }
-        Framed { panes, extent: sheet::box_of(&all), outlines }
+        Framed { panes, extent: sheet::box_of(&all), outlines, strays }
     }
 }
 

@@ -17,7 +17,7 @@ const plots = {
 
   toggle() {
     this.show(byId("plots").hidden);
-    if (camera.fitted) fitView();
+    if (camera.fitted) refit();
     changed();
   },
 

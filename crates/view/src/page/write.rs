@@ -16,7 +16,7 @@ use std::sync::Arc;
 const TEMPLATE: &str = include_str!("page.html");
 const REGION: &str = include_str!("region.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: [&str; 16] = [
+const SCRIPT: [&str; 17] = [
     include_str!("data.js"),
     include_str!("camera.js"),
     include_str!("card.js"),
@@ -24,6 +24,7 @@ const SCRIPT: [&str; 16] = [
     include_str!("draw.js"),
     include_str!("sheet.js"),
     include_str!("rods.js"),
+    include_str!("solids.js"),
     include_str!("cut.js"),
     include_str!("find.js"),
     include_str!("legend.js"),
@@ -37,7 +38,7 @@ const SCRIPT: [&str; 16] = [
 /// What a page has besides on which regions are drawn.
 const REGIONS: [&str; 2] = [include_str!("shape.js"), include_str!("region.js")];
 const SHADERS: [(&str, &str); 8] = [
-    ("ball-vert", include_str!("ball.vert")),
+    ("ball-vert", concat!(include_str!("paint.vert"), include_str!("ball.vert"))),
     ("ball-frag", include_str!("ball.frag")),
     ("dot-frag", include_str!("dot.frag")),
     ("sheet-vert", include_str!("sheet.vert")),
@@ -45,6 +46,12 @@ const SHADERS: [(&str, &str); 8] = [
     ("mesh-frag", include_str!("mesh.frag")),
     ("light-vert", include_str!("light.vert")),
     ("light-frag", include_str!("light.frag")),
+];
+
+/// Those of clumps that are polyhedra.
+const SOLID_SHADERS: [(&str, &str); 2] = [
+    ("solid-vert", concat!(include_str!("paint.vert"), include_str!("solid.vert"))),
+    ("solid-frag", include_str!("solid.frag")),
 ];
 
 /// Those of bonds, cracks and arrows.
@@ -165,8 +172,9 @@ impl Page {
 
     fn shaders(&self) -> String {
         let rods = self.layers.iter().any(|l| l.role.is_rods());
-        let more = if rods { &ROD_SHADERS[..] } else { &[] };
-        let all = SHADERS.iter().chain(more);
+        let solids = self.layers.iter().any(|l| !l.solids.is_empty());
+        let more = [(rods, &ROD_SHADERS), (solids, &SOLID_SHADERS)];
+        let all = SHADERS.iter().chain(more.iter().filter(|m| m.0).flat_map(|m| m.1));
         all.map(|(id, text)| format!("<script type=\"x-shader\" id=\"{id}\">{}</script>\n", slim(text)))
             .collect()
     }
@@ -178,7 +186,8 @@ impl Page {
         let kinds: Vec<_> = (0..colour::KIND_COUNT).map(colour::kind).collect();
         let map = Map::ALL.iter().find(|(_, m)| *m == self.options.map).map(|(name, _)| *name);
         let camera = &self.options.camera;
-        let with_outline = self.layers.iter().zip(&framed.outlines).filter(|(l, _)| is_shown(l));
+        let outlines = framed.outlines.iter().zip(&framed.strays);
+        let with_outline = self.layers.iter().zip(outlines).filter(|(l, _)| is_shown(l));
         json!({
             "title": self.options.title,
             "maps": maps, "kinds": kinds, "wall": colour::WALL, "map": map,
@@ -228,10 +237,15 @@ fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
     })
 }
 
-fn layer<'a>(layer: &'a PageLayer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> Value {
+fn layer<'a>(
+    layer: &'a PageLayer,
+    (outline, strays): (&Vec<Vec3>, &Vec<Vec3>),
+    blobs: &mut Blobs<'a>,
+) -> Value {
+    let places = |of: &[Vec3]| of.iter().map(panes::triple).collect::<Vec<_>>();
     let mut frames = Vec::new();
     for frame in layer.frames.iter() {
-        frames.push(json!({
+        let mut packed = json!({
             "time": frame.time,
             "count": frame.count,
             "lo": frame.extent.map(|r| r.lo),
@@ -239,7 +253,15 @@ fn layer<'a>(layer: &'a PageLayer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> V
             "position": blobs.number(&frame.position),
             "radius": blobs.column(&frame.radius),
             "fields": frame.fields.iter().map(|f| blobs.column(f)).collect::<Vec<_>>(),
-        }));
+        });
+        if frame.grains.clumps > 0 {
+            packed["clumps"] = json!(frame.grains.clumps);
+            packed["members"] = json!(frame.grains.members);
+        }
+        if !frame.solids.is_empty() {
+            packed["solids"] = json!(blobs.number(&frame.solids));
+        }
+        frames.push(packed);
     }
     let fields = layer.fields.iter().map(|f| {
         let shown = f.most.opened();
@@ -261,7 +283,9 @@ fn layer<'a>(layer: &'a PageLayer, outline: &[Vec3], blobs: &mut Blobs<'a>) -> V
         "motion": panes::motion(&layer.motion),
         "arrows": layer.arrow_key().map(|key| arrow_json(&key)),
         "fields": fields.chain(axes).collect::<Vec<_>>(),
-        "outline": outline.iter().map(panes::triple).collect::<Vec<_>>(),
+        "outline": places(outline),
+        "strays": places(strays),
+        "solids": layer.solids.header(|bytes| blobs.number(bytes)),
         "frames": frames,
     })
 }

@@ -10,7 +10,7 @@ use super::{
     paint::Painted,
     theme::Theme,
 };
-use crate::{Role, colour, scale};
+use crate::{GrainCount, Role, bodies::counted, colour, scale};
 
 /// Height of capitals in a picture of so many pixels [pixel].
 pub fn text_height(width: u32, height: u32) -> f64 {
@@ -74,30 +74,32 @@ pub fn boxes(painted: &Painted, options: &PictureOptions) -> [[f64; 4]; 2] {
     [[0.0, 0.0, right, margin + 2.1 * lines * text], scale]
 }
 
-/// "50 000 grains, 12 000 wall spheres".
-fn count(painted: &Painted) -> String {
-    let of = |role| painted.layers.iter().filter(|l| l.role == role).map(|l| l.spheres.len()).sum();
-    words([Role::Grains, Role::Walls, Role::Cloud].map(of), painted.shrunk)
+/// What there is of each kind.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Counts {
+    pub grains: GrainCount,
+    pub walls: usize,
+    pub points: usize,
 }
 
-fn words(counts: [usize; 3], shrunk: f64) -> String {
-    let of = |count: usize, word: &str| {
-        let word = if count == 1 { word.trim_end_matches('s') } else { word };
-        (count > 0).then(|| format!("{} {word}", grouped(count)))
-    };
-    let grains = of(counts[0], "grains").map(|words| match shrunk {
+/// "50 000 grains, 12 000 wall spheres".
+fn count(painted: &Painted) -> String {
+    let layers = |role| painted.layers.iter().filter(move |l| l.role == role);
+    let spheres = |role| layers(role).map(|l| l.spheres.len()).sum();
+    let grains = layers(Role::Grains).map(|l| GrainCount::with(l.spheres.len(), &l.bodies));
+    let grains = grains.fold(GrainCount::default(), GrainCount::plus);
+    words(Counts { grains, walls: spheres(Role::Walls), points: spheres(Role::Cloud) }, painted.shrunk)
+}
+
+fn words(counts: Counts, shrunk: f64) -> String {
+    let of = |count: usize, word: &str| (count > 0).then(|| counted(count, word));
+    let grains = Some(counts.grains.to_string()).filter(|words| !words.is_empty());
+    let grains = grains.map(|words| match shrunk {
         1.0 => words,
         shrunk => format!("{words} at {:.0} % of their size", 100.0 * shrunk),
     });
-    let words = [grains, of(counts[1], "wall spheres"), of(counts[2], "points")];
+    let words = [grains, of(counts.walls, "wall spheres"), of(counts.points, "points")];
     words.into_iter().flatten().collect::<Vec<_>>().join(", ")
-}
-
-/// Digits in groups of three.
-fn grouped(count: usize) -> String {
-    let digits = count.to_string();
-    let groups: Vec<&[u8]> = digits.as_bytes().rchunks(3).rev().collect();
-    groups.iter().map(|g| String::from_utf8_lossy(g)).collect::<Vec<_>>().join(" ")
 }
 
 /// A number as printed, with a true minus.
@@ -207,7 +209,7 @@ mod tests {
         for size in [[340, 210], [640, 720], [1920, 1080]] {
             let [width, height] = size;
             let rgba = vec![255; 4 * (width * height) as usize];
-            let mut image = Image { width, height, rgba, subject: 0 };
+            let mut image = Image { width, height, rgba, subject: 0, outside: [0; 2] };
             let range = scale::Range { lo: -11.8, hi: -10.7 };
             let (field, unit) = ("z".to_owned(), "m");
             let key = Key::Bar { field, unit, range, beyond: [true; 2], map: crate::Map::default() };
@@ -221,7 +223,6 @@ mod tests {
 
     #[test]
     fn numbers_are_printed_for_readers() {
-        assert_eq!([grouped(50_000), grouped(999), grouped(1_234_567)], ["50 000", "999", "1 234 567"]);
         assert_eq!([number(-0.04, 1), number(-1.5, 1), number(2.0, 0)], ["0.0", "−1.5", "2"]);
     }
 }

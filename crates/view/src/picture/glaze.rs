@@ -6,7 +6,7 @@ use super::{
     light::LAMP,
     paint::Pane,
     shadow::Shadow,
-    splat::Depths,
+    splat::{Depths, Met},
     theme::Theme,
 };
 use crate::colour;
@@ -200,7 +200,8 @@ impl Piece {
             return self.tone;
         }
         let sample = [at % lens.size[0], at / lens.size[0]];
-        let dark = 1.0 - shadow.lit(lens, lens.at(sample, depth), [0.0; 3], 0.0, sample);
+        let met = Met { normal: [0.0; 3], radius: 0.0, number: 0, body: None };
+        let dark = 1.0 - shadow.lit(lens, lens.at(sample, depth), &met, sample);
         let [bright, hides] = self.tone;
         [bright * (1.0 - shade * dark), hides + dark * (SHADOW - hides).max(0.0)]
     }

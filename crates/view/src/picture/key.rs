@@ -1,6 +1,7 @@
 //! The colour key, and the colours of a table by it.
 
-use crate::{Map, classes::Classes, colour, field, scale::Range};
+use crate::{Map, bodies::even_out, classes::Classes, colour, field, scale::Range};
+use record::column::BODY;
 use stream::{Table, Values};
 
 /// What the colours mean.
@@ -16,17 +17,22 @@ pub(crate) enum Key {
 }
 
 impl Key {
-    /// A colour for each row, parts 0 to 1; rows without the field are as walls are.
-    pub fn colours(&self, table: &Table) -> Vec<[f32; 3]> {
+    /// A colour for each row, parts 0 to 1; rows without the field are as walls are. On a scale, the rows of one of the
+    /// `bodies` have the colour of their mean.
+    pub fn colours(&self, table: &Table, bodies: &[Vec<u32>]) -> Vec<[f32; 3]> {
         let found = match self {
             Key::None => scan_colours(table),
-            Key::Kinds { field, .. } => field::values(table, field).map(by_kind),
+            Key::Kinds { field, names } if field == BODY && names.is_empty() => {
+                field::values(table, field).map(|v| by_kind(v, colour::scattered))
+            }
+            Key::Kinds { field, .. } => field::values(table, field).map(|v| by_kind(v, colour::kind)),
             Key::Classes { classes, map } => {
                 field::values(table, field::SIZE).map(|v| by_class(v, classes, *map))
             }
-            Key::Bar { field, range, map, .. } => {
-                field::values(table, field).map(|v| by_value(v, *range, *map))
-            }
+            Key::Bar { field, range, map, .. } => field::values(table, field).map(|mut values| {
+                even_out(&mut values, bodies);
+                by_value(values, *range, *map)
+            }),
         };
         found.unwrap_or_else(|| plain(table.rows()))
     }
@@ -42,8 +48,8 @@ fn by_class(diameters: Vec<f64>, classes: &Classes, map: Map) -> Vec<[f32; 3]> {
     diameters.into_iter().map(|d| colours[classes.of(d)]).collect()
 }
 
-fn by_kind(values: Vec<f64>) -> Vec<[f32; 3]> {
-    values.into_iter().map(|v| colour::fraction(colour::kind(v as usize))).collect()
+fn by_kind(values: Vec<f64>, kind: fn(usize) -> colour::Rgb) -> Vec<[f32; 3]> {
+    values.into_iter().map(|v| colour::fraction(kind(v as usize))).collect()
 }
 
 /// The colour of walls.

@@ -149,6 +149,28 @@ impl Lens {
         self.focal / self.distance / SAMPLES as f64
     }
 
+    /// What a sphere covers: first and last sample in x and y, not cut to the picture; none where the eye is in it, or
+    /// it is behind the eye.
+    pub fn window(&self, [x, y, z]: [f64; 3], radius: f64) -> Option<[f64; 4]> {
+        let [x0, x1] = tangents(x, z, radius)?;
+        let [y0, y1] = tangents(y, z, radius)?;
+        let [cx, cy] = self.centre;
+        Some([cx + self.focal * x0, cx + self.focal * x1, cy - self.focal * y1, cy - self.focal * y0])
+    }
+
+    /// Whether a window reaches into the picture.
+    pub fn shows(&self, window: [f64; 4]) -> bool {
+        window[1] >= 0.0
+            && window[3] >= 0.0
+            && window[0] < self.size[0] as f64
+            && window[2] < self.size[1] as f64
+    }
+
+    /// Whether any of a sphere [m] is in the picture.
+    pub fn reaches(&self, centre: Vec3, radius: f64) -> bool {
+        self.window(self.seen(centre), radius).is_some_and(|window| self.shows(window))
+    }
+
     /// The direction of an axis of the world (0 x, 1 y, 2 z) on the picture: right, down, and away.
     pub fn axis(&self, k: usize) -> [f64; 3] {
         [self.axes[0][k], -self.axes[1][k], self.axes[2][k]]

@@ -4,6 +4,7 @@
 use super::{
     PictureOptions,
     glaze::Glaze,
+    kin::Kin,
     lens::{Lens, SAMPLES},
     paint::{Painted, PaintedLayer},
     rods::Rod,
@@ -45,6 +46,8 @@ struct Shaded {
     colour: Vec<[f32; 3]>,
     /// How many spheres there are.
     spheres: usize,
+    /// Which of them are one body.
+    kin: Kin,
     /// How far around a sample shade is looked for [m].
     reach: f64,
 }
@@ -119,8 +122,15 @@ impl Shaded {
         keep: impl Fn(Vec3) -> bool,
     ) -> Self {
         let mut joined = Spheres::default();
-        let mut colour = Vec::new();
+        let (mut colour, mut kin, mut rods) = (Vec::new(), Kin::default(), rods.to_vec());
+        let mut of_bodies = vec![None; rods.len()];
         for layer in layers {
+            // Only walls lose spheres by `keep`, and they have no bodies.
+            let bodies = join_bodies(&mut kin, layer, joined.len(), lens);
+            for (n, own) in &layer.solids {
+                of_bodies.extend(vec![Some(bodies[*n]); own.len()]);
+                rods.extend(own);
+            }
             for i in 0..layer.spheres.len() {
                 let place = layer.spheres.at(i);
                 if layer.role == Role::Walls && !keep(place) {
@@ -131,10 +141,14 @@ impl Shaded {
                 colour.push(layer.colour[i]);
             }
         }
+        for (n, body) in of_bodies.iter().enumerate() {
+            body.iter().for_each(|&body| kin.join(joined.len() + n, body));
+        }
         let usual = middle_of(joined.radius.clone());
-        let (depths, shadow) = (splat(&joined, rods, lens), Shadow::of(&joined, rods, usual, lens, extent));
+        let depths = splat(&joined, &rods, lens);
+        let shadow = Shadow::of(&joined, &rods, &kin, usual, lens, extent);
         colour.extend(rods.iter().map(|rod| rod.colour));
-        Shaded { depths, shadow, colour, spheres: joined.len(), reach: 4.0 * usual }
+        Shaded { depths, shadow, colour, spheres: joined.len(), kin, reach: 4.0 * usual }
     }
 
     /// The lit colour at a sample, and how near to its outline that is; or none where there is nothing. `others` cast
@@ -143,24 +157,28 @@ impl Shaded {
         let place = at[1] * lens.size[0] + at[0];
         let depth = f64::from(self.depths.depth[place]);
         let point = lens.at(at, depth);
-        let Met { normal, radius, number } = self.depths.met(place, point, self.spheres)?;
+        let mut met = self.depths.met(place, point, self.spheres)?;
+        met.body = self.kin.of(met.number);
+        met.normal = self.kin.normal(met.number, point).unwrap_or(met.normal);
+        let normal = met.normal;
         let facing: f32 = (0..3).map(|k| normal[k] * LAMP[k]).sum();
-        let lit = |shadow: &Shadow| shadow.lit(lens, point, normal, radius, at);
+        let lit = |shadow: &Shadow| shadow.lit(lens, point, &met, at);
         let lit = || lit(&self.shadow).min(others.map_or(1.0, lit));
         let lamp = if facing > 0.0 { facing * lit() } else { 0.0 };
-        let open = self.openness(lens, at, point, normal);
+        let open = self.openness(lens, at, point, &met);
         let bright = open * (0.62 + 0.14 * normal[1]) + 0.46 * (0.3 + 0.7 * open) * lamp;
         let rim = (1.0 + normal[2]).clamp(0.0, 1.0).powi(3);
         let sky = open * (0.6 + 0.4 * normal[1]) * (0.10 + 0.22 * rim);
         let gloss = sky + 0.12 * open * lamp.powi(12);
-        let own = self.colour[number];
+        let own = self.colour[met.number];
         // Light colours need no gloss to show their shape.
         let lit = own.map(|c| (c * bright + (1.0 - 0.8 * c) * gloss).min(1.0));
         Some((lit, (1.0 + normal[2]).clamp(0.0, 1.0)))
     }
 
-    /// How much of the sky a sample sees, 0 to 1, judged by what stands around it in the picture.
-    fn openness(&self, lens: &Lens, at: [usize; 2], point: [f64; 3], normal: [f32; 3]) -> f32 {
+    /// How much of the sky a sample sees, 0 to 1, judged by what stands around it in the picture; a body does not hide
+    /// the sky from itself, which would darken the lines between its spheres.
+    fn openness(&self, lens: &Lens, at: [usize; 2], point: [f64; 3], met: &Met) -> f32 {
         let reach = (self.reach * lens.focal / point[2]).clamp(4.0, 0.06 * lens.size[1] as f64) as f32;
         let world = (f64::from(reach) * point[2] / lens.focal) as f32;
         // Each of the four samples of a pixel looks a quarter turn further on, so a pixel looks everywhere.
@@ -175,18 +193,35 @@ impl Shaded {
             }
             let there = [x as usize, y as usize];
             let depth = f64::from(self.depths.depth[there[1] * lens.size[0] + there[0]]);
-            if !depth.is_finite() {
+            if !depth.is_finite() || met.body.is_some() && self.body_at(there, lens) == met.body {
                 continue;
             }
             let other = lens.at(there, depth);
             let away: [f32; 3] = std::array::from_fn(|k| (other[k] - point[k]) as f32);
             let length = away.iter().map(|a| a * a).sum::<f32>().sqrt().max(1e-9);
-            let above = (0..3).map(|k| normal[k] * away[k]).sum::<f32>() / length;
+            let above = (0..3).map(|k| met.normal[k] * away[k]).sum::<f32>() / length;
             let fade = (1.0 - length / (1.5 * world)).max(0.0);
             covered += (above - 0.08).max(0.0) * fade;
         }
         (1.0 - 2.4 * covered / SPIRAL.len() as f32).clamp(0.15, 1.0)
     }
+
+    /// The body that a sample sees.
+    fn body_at(&self, at: [usize; 2], lens: &Lens) -> Option<u32> {
+        self.kin.of(self.depths.number(at[1] * lens.size[0] + at[0], self.spheres)?)
+    }
+}
+
+/// Adds the bodies of a layer, whose spheres are numbered from `first`; their numbers.
+fn join_bodies(kin: &mut Kin, layer: &PaintedLayer, first: usize, lens: &Lens) -> Vec<u32> {
+    let mut smooth = vec![true; layer.bodies.len()];
+    layer.solids.iter().for_each(|(n, _)| smooth[*n] = false);
+    let seen = |&row: &u32| (lens.seen(layer.spheres.at(row as usize)), layer.spheres.radius[row as usize]);
+    let body = |(rows, smooth): (&Vec<u32>, bool)| {
+        let numbers: Vec<usize> = rows.iter().map(|&row| first + row as usize).collect();
+        kin.add(&numbers, if smooth { rows.iter().map(seen).collect() } else { Vec::new() })
+    };
+    layer.bodies.iter().zip(smooth).map(body).collect()
 }
 
 /// The middle one of the radii [m].

@@ -6,12 +6,14 @@ mod glaze;
 mod hull;
 mod ink;
 mod key;
+mod kin;
 mod lens;
 mod light;
 mod paint;
 mod rods;
 mod shadow;
 mod shapes;
+mod solid;
 mod splat;
 mod survey;
 mod theme;
@@ -77,6 +79,8 @@ pub struct Image {
     pub rgba: Vec<u8>,
     /// Longer side of what is shown, without text and planes [pixel].
     pub subject: u32,
+    /// Grains that lie outside, where the camera was placed by the program, and all grains; a clump is one.
+    pub outside: [usize; 2],
 }
 
 impl Image {
@@ -135,7 +139,8 @@ pub fn draw_surveyed(
     let painted = Painted::new(parts, surfaces, survey, options)?;
     let lens = lens::Lens::new(&painted, options);
     let shown = light::render(&painted, &lens, options);
-    let mut image = Image { width, height, rgba: shown, subject: lens.longer_side(&painted.outline) };
+    let (subject, outside) = (lens.longer_side(&painted.outline), painted.outside(&lens, options));
+    let mut image = Image { width, height, rgba: shown, subject, outside };
     furniture::add(&mut image, &painted, &lens, options);
     Ok(image)
 }

@@ -2,16 +2,21 @@
 
 use super::{
     PictureOptions,
+    furniture::Counts,
     key::{Key, plain},
+    lens::Lens,
     rods::Rod,
     shapes::{self, ArrowKey},
+    solid::rods,
     survey::Survey,
     theme::Theme,
 };
 use crate::{
-    Role, SurfaceShape, ViewError, WallSurface, extras::GRAINS, scale::Range, sheet, spheres::Spheres,
+    GrainCount, Role, SurfaceShape, ViewError, WallSurface, bodies::bodies, extras::GRAINS, scale::Range,
+    sheet, solid::Solid, spheres::Spheres,
 };
 use geom::Vec3;
+use record::ClumpRecord;
 use stream::Table;
 
 /// One table to draw.
@@ -25,6 +30,30 @@ pub struct DrawnTable<'a> {
     pub table: &'a Table,
     /// Names of the kinds that the field `material` counts.
     pub kinds: Vec<String>,
+    /// Shapes of clumps.
+    pub clumps: Vec<ClumpRecord>,
+}
+
+impl DrawnTable<'_> {
+    /// The rows of each clump.
+    pub(super) fn bodies(&self) -> Vec<Vec<u32>> {
+        if self.role == Role::Grains { bodies(self.table) } else { Vec::new() }
+    }
+}
+
+/// Edges and faces of the clumps that are polyhedra, with the place of each in `bodies`.
+fn solids(
+    part: &DrawnTable,
+    spheres: &Spheres,
+    bodies: &[Vec<u32>],
+    colour: &[[f32; 3]],
+) -> Vec<(usize, Vec<Rod>)> {
+    let known: Vec<Solid> = part.clumps.iter().filter_map(Solid::of).collect();
+    let solid = |(n, rows): (usize, &Vec<u32>)| {
+        let solid = known.iter().find(|solid| solid.fits(spheres, rows))?;
+        Some((n, rods(solid, spheres, rows, colour[rows[0] as usize])))
+    };
+    bodies.iter().enumerate().filter_map(solid).collect()
 }
 
 /// One kind of thing, ready to draw.
@@ -33,6 +62,10 @@ pub(crate) struct PaintedLayer {
     pub spheres: Spheres,
     /// A colour for each sphere, parts 0 to 1.
     pub colour: Vec<[f32; 3]>,
+    /// The spheres of each clump.
+    pub bodies: Vec<Vec<u32>>,
+    /// Edges and faces of those that are polyhedra, with the place in `bodies`.
+    pub solids: Vec<(usize, Vec<Rod>)>,
 }
 
 /// A plane or mesh where it is at the moment.
@@ -60,7 +93,7 @@ pub(crate) struct Painted {
     pub shrunk: f64,
     pub arrows: Option<ArrowKey>,
     /// Most grains, wall spheres and points of all moments.
-    pub counts: [usize; 3],
+    pub counts: Counts,
     pub panes: Vec<Pane>,
     /// Places that the camera must see [m].
     pub outline: Vec<Vec3>,
@@ -89,8 +122,10 @@ impl Painted {
                 spheres.radius.iter_mut().for_each(|r| *r *= shrunk);
             }
             let shown = survey.role() == Some(part.role);
-            let colour = if shown { key.colours(part.table) } else { plain(spheres.len()) };
-            layers.push(PaintedLayer { role: part.role, spheres, colour });
+            let bodies = part.bodies();
+            let colour = if shown { key.colours(part.table, &bodies) } else { plain(spheres.len()) };
+            let solids = if shrunk == 1.0 { solids(part, &spheres, &bodies, &colour) } else { Vec::new() };
+            layers.push(PaintedLayer { role: part.role, spheres, colour, bodies, solids });
         }
         let mut painted = Painted {
             layers,
@@ -148,6 +183,24 @@ impl Painted {
         }
         self.outline = outline.points();
         self.extent = sheet::box_of(&self.outline);
+    }
+
+    /// Grains that are not in the picture at all, unless the place of the eye was given, and all grains.
+    pub fn outside(&self, lens: &Lens, options: &PictureOptions) -> [usize; 2] {
+        let mut found = [0; 2];
+        for layer in self.layers.iter().filter(|l| l.role == Role::Grains) {
+            let count = GrainCount::with(layer.spheres.len(), &layer.bodies);
+            let missed = |row: usize| !lens.reaches(layer.spheres.at(row), layer.spheres.radius[row]);
+            let mut alone: Vec<bool> = (0..layer.spheres.len()).map(missed).collect();
+            for rows in &layer.bodies {
+                let all = rows.iter().all(|&row| alone[row as usize]);
+                rows.iter().for_each(|&row| alone[row as usize] = false);
+                alone[rows[0] as usize] = all;
+            }
+            let missed = alone.iter().filter(|missed| **missed).count();
+            found = [found[0] + missed, found[1] + count.grains()];
+        }
+        if options.camera.eye.is_some() { [0, found[1]] } else { found }
     }
 
     /// Middle of what is looked at [m].

@@ -1,4 +1,4 @@
-//! Rods: cones with round ends, and discs. Bonds, cracks and arrows are made of them.
+//! Rods: cones with round ends, discs, and triangles. Bonds, cracks, arrows and polyhedra are made of them.
 //!
 //! A cone is what a sphere sweeps whose centre goes from a to b while its radius goes from r_a to r_b. Of the spheres
 //! c(s) = a + s u, r(s) = r_a + s δ (u = b − a, δ = r_b − r_a) that touch its surface at a place p, q = p − a:
@@ -10,18 +10,30 @@
 //! The second is quadratic along a ray; where s is not in 0…1, the sphere at that end counts. Without b, a = b, it is a
 //! sphere.
 
-use super::lens::{Lens, tangents};
+use super::lens::Lens;
 use geom::Vec3;
 
-/// A cone with round ends, or a disc, in the world.
+/// What a rod is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum RodShape {
+    /// A cone with round ends.
+    Cone,
+    /// A disc of the first radius.
+    Disc,
+    /// A triangle with this third corner [m], which is seen from the side only from which its corners run
+    /// counterclockwise: a body hides the other.
+    Face(Vec3),
+}
+
+/// A cone with round ends, a disc, or a triangle, in the world.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rod {
-    /// Its ends [m]; of a disc the middle, and the middle moved along its normal.
+    /// Its ends [m]; of a disc the middle, and the middle moved along its normal; of a triangle two corners.
     pub ends: [Vec3; 2],
     /// Radius at each end [m].
     pub radii: [f64; 2],
-    /// Whether it is a disc, of the first radius.
-    pub disc: bool,
+    /// What it is.
+    pub shape: RodShape,
     /// Parts 0 to 1.
     pub colour: [f32; 3],
 }
@@ -30,7 +42,7 @@ pub(crate) struct Rod {
 pub(super) struct SeenRod {
     ends: [Vec3; 2],
     radii: [f64; 2],
-    disc: bool,
+    shape: RodShape,
     /// First and last sample in x and y, not yet cut to the picture.
     pub window: [f64; 4],
 }
@@ -39,26 +51,26 @@ impl SeenRod {
     /// None where nothing of it is in the picture, or the eye is in it.
     pub fn new(rod: &Rod, lens: &Lens) -> Option<SeenRod> {
         let ends = rod.ends.map(|p| Vec3::from(lens.seen(p)));
-        let count = if rod.disc { 1 } else { 2 };
         let mut window = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
-        for (end, radius) in ends.iter().zip(rod.radii).take(count) {
-            let [x0, x1] = tangents(end.x, end.z, radius)?;
-            let [y0, y1] = tangents(end.y, end.z, radius)?;
-            let [cx, cy] = lens.centre;
-            let own =
-                [cx + lens.focal * x0, cx + lens.focal * x1, cy - lens.focal * y1, cy - lens.focal * y0];
-            window =
-                std::array::from_fn(
-                    |k| {
-                        if k % 2 == 0 { window[k].min(own[k]) } else { window[k].max(own[k]) }
-                    },
-                );
+        let (shape, balls) = match rod.shape {
+            RodShape::Cone => (RodShape::Cone, vec![(ends[0], rod.radii[0]), (ends[1], rod.radii[1])]),
+            RodShape::Disc => (RodShape::Disc, vec![(ends[0], rod.radii[0])]),
+            RodShape::Face(third) => {
+                let third = Vec3::from(lens.seen(third));
+                // Right, up and forward are a left-handed frame.
+                if (ends[1] - ends[0]).cross(&(third - ends[0])).dot(&ends[0]) <= 0.0 {
+                    return None;
+                }
+                (RodShape::Face(third), vec![(ends[0], 0.0), (ends[1], 0.0), (third, 0.0)])
+            }
+        };
+        for (end, radius) in balls {
+            let own = lens.window([end.x, end.y, end.z], radius)?;
+            let wider =
+                |k: usize| if [0, 2].contains(&k) { window[k].min(own[k]) } else { window[k].max(own[k]) };
+            window = std::array::from_fn(wider);
         }
-        let inside = window[1] >= 0.0
-            && window[3] >= 0.0
-            && window[0] < lens.size[0] as f64
-            && window[2] < lens.size[1] as f64;
-        inside.then_some(SeenRod { ends, radii: rod.radii, disc: rod.disc, window })
+        lens.shows(window).then_some(SeenRod { ends, radii: rod.radii, shape, window })
     }
 
     /// The larger radius [m].
@@ -70,7 +82,10 @@ impl SeenRod {
     pub fn depth(&self, dx: f64, dy: f64) -> Option<f64> {
         let ray = Vec3::new(dx, dy, 1.0);
         let [a, b] = self.ends;
-        if self.disc {
+        if let RodShape::Face(c) = self.shape {
+            return met_face([a, b, c], ray);
+        }
+        if matches!(self.shape, RodShape::Disc) {
             let normal = b - a;
             let t = normal.dot(&a) / normal.dot(&ray);
             return (t > 0.0 && (ray * t - a).norm_squared() <= self.radii[0] * self.radii[0]).then_some(t);
@@ -109,8 +124,11 @@ impl SeenRod {
     pub fn normal(&self, place: [f64; 3]) -> [f32; 3] {
         let (place, [a, b]) = (Vec3::from(place), self.ends);
         let u = b - a;
-        let normal = if self.disc {
-            if u.dot(&a) > 0.0 { -u } else { u }
+        let towards_eye = |normal: Vec3| if normal.dot(&a) > 0.0 { -normal } else { normal };
+        let normal = if let RodShape::Face(c) = self.shape {
+            towards_eye(u.cross(&(c - a)))
+        } else if matches!(self.shape, RodShape::Disc) {
+            towards_eye(u)
         } else {
             let delta = self.radii[1] - self.radii[0];
             let rest = u.norm_squared() - delta * delta;
@@ -123,12 +141,21 @@ impl SeenRod {
     }
 }
 
+/// How far along a ray from the eye a triangle is: the ray passes all its sides on the same side.
+fn met_face([a, b, c]: [Vec3; 3], ray: Vec3) -> Option<f64> {
+    let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| p.cross(&q).dot(&ray));
+    let inside = sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0);
+    let normal = (b - a).cross(&(c - a));
+    let t = normal.dot(&a) / normal.dot(&ray);
+    (inside && t > 0.0 && t.is_finite()).then_some(t)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn rod(ends: [[f64; 3]; 2], radii: [f64; 2], disc: bool) -> SeenRod {
-        SeenRod { ends: ends.map(Vec3::from), radii, disc, window: [0.0; 4] }
+    fn rod(ends: [[f64; 3]; 2], radii: [f64; 2], shape: RodShape) -> SeenRod {
+        SeenRod { ends: ends.map(Vec3::from), radii, shape, window: [0.0; 4] }
     }
 
     /// Every place that a ray finds lies on the surface: its distance from the nearest of the swept spheres is 0.
@@ -140,7 +167,7 @@ mod tests {
             ([[0.0, 0.0, 10.0], [0.0, 0.0, 10.0]], [0.5, 0.5]),
             ([[0.0, 0.0, 9.0], [0.1, 0.0, 12.0]], [0.2, 0.9]),
         ] {
-            let rod = rod(ends, radii, false);
+            let rod = rod(ends, radii, RodShape::Cone);
             let mut met = 0;
             for k in 0..144 {
                 let [dx, dy] = [k % 12, k / 12].map(|n| 0.04 * (f64::from(n) - 5.5));
@@ -168,9 +195,18 @@ mod tests {
 
     #[test]
     fn a_disc_is_met_inside_its_radius_only() {
-        let disc = rod([[0.0, 0.0, 10.0], [0.0, 1.0, 11.0]], [1.0, 1.0], true);
+        let disc = rod([[0.0, 0.0, 10.0], [0.0, 1.0, 11.0]], [1.0, 1.0], RodShape::Disc);
         assert!((disc.depth(0.0, 0.0).unwrap_or(0.0) - 10.0).abs() < 1e-12);
         assert!(disc.depth(0.099, 0.0).is_some() && disc.depth(0.101, 0.0).is_none());
         assert!(disc.normal([0.0, 0.0, 10.0])[2] < 0.0);
+    }
+
+    #[test]
+    fn a_triangle_is_met_inside_its_sides_only() {
+        let third = Vec3::new(0.0, 1.0, 11.0);
+        let face = rod([[0.0, 0.0, 10.0], [1.0, 0.0, 10.0]], [0.1; 2], RodShape::Face(third));
+        assert!((face.depth(0.02, 0.02).unwrap_or(0.0) - 10.0 / 0.98).abs() < 1e-12, "z = 10 + y");
+        assert!(face.depth(-0.001, 0.02).is_none() && face.depth(0.09, 0.02).is_none());
+        assert!(face.normal([0.2, 0.2, 10.2])[2] < 0.0);
     }
 }

@@ -1,7 +1,13 @@
 //! Shadows: what does not see the lamp. The spheres are drawn once more from the lamp, far away, and a place is in the
 //! shadow where that drawing has something nearer (L. Williams 1978, SIGGRAPH 12, 270).
 
-use super::{lens::Lens, light::LAMP, rods::Rod, splat::splat};
+use super::{
+    kin::Kin,
+    lens::Lens,
+    light::LAMP,
+    rods::Rod,
+    splat::{Met, NOTHING, splat},
+};
 use crate::spheres::Spheres;
 use geom::Vec3;
 
@@ -22,6 +28,8 @@ pub struct Shadow {
     lamp: Lens,
     /// Distance of the nearest sphere [m]; infinite where there is none; empty without spheres.
     depth: Vec<f32>,
+    /// The body of that sphere, or [`NOTHING`]; empty without bodies.
+    body: Vec<u32>,
     /// Side of a sample [m].
     fine: f64,
     /// How far a shadow reaches [m].
@@ -34,6 +42,7 @@ impl Shadow {
     pub fn of(
         spheres: &Spheres,
         rods: &[Rod],
+        kin: &Kin,
         usual: f64,
         eye: &Lens,
         (middle, radius): (Vec3, f64),
@@ -43,18 +52,23 @@ impl Shadow {
         let lamp = Lens::far(middle, radius, towards, SIZE);
         let fine = 2.0 * radius / SIZE as f64;
         let none = spheres.len() == 0 && rods.is_empty();
-        let depth = if none { Vec::new() } else { splat(spheres, rods, &lamp).depth };
-        Shadow { lamp, depth, fine, reach: REACH * usual }
+        if none {
+            return Shadow { lamp, depth: Vec::new(), body: Vec::new(), fine, reach: REACH * usual };
+        }
+        let drawn = splat(spheres, rods, &lamp);
+        let body_at = |at| drawn.number(at, spheres.len()).and_then(|n| kin.of(n)).unwrap_or(NOTHING);
+        let body = if kin.is_empty() { Vec::new() } else { (0..drawn.depth.len()).map(body_at).collect() };
+        Shadow { lamp, depth: drawn.depth, body, fine, reach: REACH * usual }
     }
 
-    /// How much of the lamp a point sees, 0 to 1; it and its normal are as seen by `eye`, `radius` [m] is that of the
-    /// sphere it is on.
-    pub fn lit(&self, eye: &Lens, point: [f64; 3], normal: [f32; 3], radius: f64, at: [usize; 2]) -> f32 {
+    /// How much of the lamp a point of what was met sees, 0 to 1; it and its normal are as seen by `eye`. A body casts no
+    /// shadow on itself: its spheres would, along the lines between them.
+    pub fn lit(&self, eye: &Lens, point: [f64; 3], met: &Met, at: [usize; 2]) -> f32 {
         if self.depth.is_empty() {
             return 1.0;
         }
-        let slack = 0.05 * radius + 1.5 * self.fine;
-        let outside = std::array::from_fn(|k| point[k] + slack * f64::from(normal[k]));
+        let slack = 0.05 * met.radius + 1.5 * self.fine;
+        let outside = std::array::from_fn(|k| point[k] + slack * f64::from(met.normal[k]));
         let [x, y, z] = self.lamp.seen(eye.place(outside));
         let column = self.lamp.centre[0] + self.lamp.focal * x / z;
         let row = self.lamp.centre[1] - self.lamp.focal * y / z;
@@ -63,7 +77,9 @@ impl Shadow {
         let shade = |side: f64| {
             let (x, y) = (column + SOFT * side * turn[0], row + SOFT * side * turn[1]);
             let inside = x >= 0.0 && y >= 0.0 && x < SIZE as f64 && y < SIZE as f64;
-            let above = if inside { z - f64::from(self.depth[y as usize * SIZE + x as usize]) } else { 0.0 };
+            let place = if inside { y as usize * SIZE + x as usize } else { 0 };
+            let own = met.body.is_some() && self.body.get(place).copied() == met.body;
+            let above = if inside && !own { z - f64::from(self.depth[place]) } else { 0.0 };
             if above > slack { (1.0 - above / self.reach).max(0.0) as f32 } else { 0.0 }
         };
         1.0 - DEEP * (shade(1.0) + shade(0.15) + shade(-0.7)) / 3.0

@@ -1,6 +1,6 @@
 //! The rods of bonds, cracks and arrows.
 
-use super::rods::Rod;
+use super::rods::{Rod, RodShape};
 use crate::extras::{ALONG, ARROW, Arrows, BOND, CRACK, HEAD};
 use crate::scale::{Range, round_below};
 use geom::Vec3;
@@ -30,11 +30,11 @@ pub(super) fn bonds(table: &Table) -> (Vec<Rod>, [usize; 2]) {
         Some(2.0) => None,
         Some(1.0) => {
             let (ends, radii) = ([middle, middle + half], [CRACK * radius; 2]);
-            Some(Rod { ends, radii, disc: true, colour: BREAK })
+            Some(Rod { ends, radii, shape: RodShape::Disc, colour: BREAK })
         }
         _ => {
             let (ends, radii) = ([middle - half, middle + half], [BOND * radius; 2]);
-            Some(Rod { ends, radii, disc: false, colour: WHOLE })
+            Some(Rod { ends, radii, shape: RodShape::Cone, colour: WHOLE })
         }
     };
     let count = broken.iter().filter(|b| **b != 0.0).count();
@@ -106,7 +106,7 @@ fn arrow(start: Vec3, along: Vec3, radius: f64, colour: [f32; 3]) -> Option<[Rod
     }
     let (tip, neck) = (start + along, start + along * (1.0 - head / length));
     let thick = head / HEAD[1];
-    let rod = |ends, radii| Rod { ends, radii, disc: false, colour };
+    let rod = |ends, radii| Rod { ends, radii, shape: RodShape::Cone, colour };
     Some([rod([start, neck], [0.3 * HEAD[0] * thick; 2]), rod([neck, tip], [HEAD[0] * thick, 0.0])])
 }
 

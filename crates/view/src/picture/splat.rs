@@ -5,7 +5,7 @@
 //! does not depend on the number of threads.
 
 use super::{
-    lens::{Lens, tangents},
+    lens::Lens,
     rods::{Rod, SeenRod},
 };
 use crate::spheres::Spheres;
@@ -50,6 +50,8 @@ pub struct Met {
     pub radius: f64,
     /// Number in the list of spheres, or after these, in that of rods.
     pub number: usize,
+    /// The body that it is a part of, see [`super::kin`].
+    pub body: Option<u32>,
 }
 
 impl Depths {
@@ -62,11 +64,22 @@ impl Depths {
         let found = found as usize;
         if let Some(ball) = self.balls.get(found) {
             let normal = std::array::from_fn(|k| ((point[k] - ball.centre[k]) / ball.radius) as f32);
-            return Some(Met { normal, radius: ball.radius, number: ball.number as usize });
+            return Some(Met { normal, radius: ball.radius, number: ball.number as usize, body: None });
         }
         let (rod, number) = self.rods.get(found - self.balls.len())?;
         let (normal, radius) = (rod.normal(point), rod.radius());
-        Some(Met { normal, radius, number: spheres + *number as usize })
+        Some(Met { normal, radius, number: spheres + *number as usize, body: None })
+    }
+
+    /// The number of what is at a sample, as in [`Met`].
+    pub fn number(&self, sample: usize, spheres: usize) -> Option<usize> {
+        let found = self.ball[sample] as usize;
+        let rod = || self.rods.get(found - self.balls.len()).map(|(_, number)| spheres + *number as usize);
+        match self.balls.get(found) {
+            Some(ball) => Some(ball.number as usize),
+            None if self.ball[sample] == NOTHING => None,
+            None => rod(),
+        }
     }
 }
 
@@ -100,15 +113,8 @@ pub fn splat(spheres: &Spheres, rods: &[Rod], lens: &Lens) -> Depths {
 fn seen_ball(spheres: &Spheres, i: usize, lens: &Lens) -> Option<Ball> {
     let centre = lens.seen(spheres.at(i));
     let radius = spheres.radius[i];
-    let [x0, x1] = tangents(centre[0], centre[2], radius)?;
-    let [y0, y1] = tangents(centre[1], centre[2], radius)?;
-    let [cx, cy] = lens.centre;
-    let window = [cx + lens.focal * x0, cx + lens.focal * x1, cy - lens.focal * y1, cy - lens.focal * y0];
-    let inside = window[1] >= 0.0
-        && window[3] >= 0.0
-        && window[0] < lens.size[0] as f64
-        && window[2] < lens.size[1] as f64;
-    inside.then_some(Ball { centre, radius, window, number: i as u32 })
+    let window = lens.window(centre, radius)?;
+    lens.shows(window).then_some(Ball { centre, radius, window, number: i as u32 })
 }
 
 /// The numbers of the windows that reach into each tile, in their order.

@@ -2,15 +2,17 @@
 
 use super::{
     PictureOptions,
+    furniture::Counts,
     key::{Key, scan_colours},
     paint::DrawnTable,
     shapes::{ArrowKey, ArrowSurvey},
 };
 use crate::{
-    Role, SurfaceShape, ViewError, WallSurface, classes::Sizes, colour, field, outline::Outline,
+    GrainCount, Role, SurfaceShape, ViewError, WallSurface, classes::Sizes, colour, field, outline::Outline,
     scale::Range, sheet::box_of, spheres::Spheres,
 };
 use geom::Vec3;
+use stream::Table;
 
 /// Values of a moment that are kept to find the range of the colours, at most, when there are many moments.
 const SAMPLE: usize = 20_000;
@@ -23,7 +25,7 @@ pub struct Survey {
     arrows: ArrowSurvey,
     moments: usize,
     /// Most grains, wall spheres and points of a moment.
-    counts: [usize; 3],
+    counts: Counts,
 }
 
 /// What is coloured, by what.
@@ -58,7 +60,8 @@ impl Survey {
         }
         let parts = || parts.iter().filter(|p| p.table.rows() > 0 && !p.role.is_rods());
         for part in parts() {
-            self.outline.add_spheres(&Spheres::of(part.table, &part.name)?, part.role != Role::Walls);
+            let spheres = Spheres::of(part.table, &part.name)?;
+            self.outline.add_spheres(&spheres, &part.bodies(), part.role != Role::Walls);
         }
         for surface in surfaces.iter().filter(|s| self.moments == 1 || s.motion.moves()) {
             if let SurfaceShape::Mesh(mesh) = &surface.shape {
@@ -66,9 +69,14 @@ impl Survey {
                 self.outline.add(&mesh.vertices.iter().map(|v| pose.position(v)).collect::<Vec<Vec3>>());
             }
         }
-        let count = |role| parts().filter(|p| p.role == role).map(|p| p.table.rows()).sum::<usize>();
-        let now = [Role::Grains, Role::Walls, Role::Cloud].map(count);
-        self.counts = std::array::from_fn(|k| self.counts[k].max(now[k]));
+        let tables = |role| parts().filter(move |p| p.role == role).map(|p| p.table);
+        let rows = |role| tables(role).map(Table::rows).sum::<usize>();
+        let grains = tables(Role::Grains).map(GrainCount::of).fold(GrainCount::default(), GrainCount::plus);
+        self.counts = Counts {
+            grains: self.counts.grains.most(grains),
+            walls: self.counts.walls.max(rows(Role::Walls)),
+            points: self.counts.points.max(rows(Role::Cloud)),
+        };
         let Some(first) = parts().min_by_key(|p| p.role) else { return Ok(()) };
         if self.colours.as_ref().is_none_or(|c| first.role < c.role) {
             self.colours = Some(Colours::of(first, options));
@@ -84,8 +92,13 @@ impl Survey {
     }
 
     /// Most grains, wall spheres and points of a moment.
-    pub(super) fn counts(&self) -> [usize; 3] {
+    pub(super) fn counts(&self) -> Counts {
         self.counts
+    }
+
+    /// Most grains of a moment.
+    pub fn grains(&self) -> GrainCount {
+        self.counts.grains
     }
 
     /// What the lengths of arrows mean.

@@ -89,7 +89,8 @@ fn a_plane_does_not_show_through_wall_spheres() {
     let back =
         WallSurface { name: "back".into(), shape: SurfaceShape::Plane(plane), motion: Motion::default() };
     let draw = |surfaces: &[WallSurface]| {
-        let part = |role, table| DrawnTable { role, name: "test".into(), table, kinds: vec![] };
+        let part =
+            |role, table| DrawnTable { role, name: "test".into(), table, kinds: vec![], clumps: vec![] };
         let options = PictureOptions {
             width: 600,
             height: 400,
@@ -116,7 +117,13 @@ fn text_is_never_over_grains() {
             })
             .collect();
         let grains = table(&spheres, &vec![1.0; spheres.len()]);
-        let part = DrawnTable { role: Role::Grains, name: "test".into(), table: &grains, kinds: vec![] };
+        let part = DrawnTable {
+            role: Role::Grains,
+            name: "test".into(),
+            table: &grains,
+            kinds: vec![],
+            clumps: vec![],
+        };
         let options = PictureOptions {
             width: 640,
             height: 360,
@@ -149,7 +156,13 @@ fn on_dark_paper_nothing_is_lost() {
     // The lowest colour of the map, nearly as dark as the paper.
     let grain = table(&[[0.0, 0.0, 0.0, 0.5]], &[0.0]);
     let draw = |dark: bool, surfaces: &[WallSurface]| {
-        let part = DrawnTable { role: Role::Grains, name: "test".into(), table: &grain, kinds: vec![] };
+        let part = DrawnTable {
+            role: Role::Grains,
+            name: "test".into(),
+            table: &grain,
+            kinds: vec![],
+            clumps: vec![],
+        };
         let options = PictureOptions {
             width: 600,
             height: 400,

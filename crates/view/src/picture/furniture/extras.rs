@@ -1,6 +1,6 @@
 //! What bonds, cracks and arrows mean.
 
-use super::grouped;
+use crate::bodies::grouped;
 use crate::picture::{
     ink::{Anchor, Pen},
     lens::Lens,

@@ -1,15 +1,26 @@
 //! The convex hull of points, exactly: point by point, faces that see the point are replaced by those from their rim to the point.
 //!
-//! Which faces see a point is decided by exact signs (`triangles.rs`); a point in the plane of a face does not see it, so no face without area
+//! Which faces see a point is decided by exact signs; a point in the plane of a face does not see it, so no face without area
 //! is ever made.
 
-use crate::triangles::side;
-use geom::Vec3;
-use geom::mesh::TriMesh;
+use crate::{Vec3, mesh::TriMesh};
+use robust::{Coord3D, orient3d};
 use std::collections::HashSet;
 
+/// The sign of the volume of abcd, exactly: positive where d is below abc, the side from which a, b, c run clockwise.
+pub fn side(a: &Vec3, b: &Vec3, c: &Vec3, d: &Vec3) -> i8 {
+    let [a, b, c, d] = [a, b, c, d].map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
+    let volume = orient3d(a, b, c, d);
+    i8::from(volume > 0.0) - i8::from(volume < 0.0)
+}
+
 /// The hull of points [m] that are not all in one plane; `None` if they are.
-pub(crate) fn hull(points: &[Vec3]) -> Option<TriMesh> {
+pub fn hull(points: &[Vec3]) -> Option<TriMesh> {
+    Some(packed(points, &hull_faces(points)?))
+}
+
+/// The faces of the hull, by the numbers of the points; `None` where all points [m] are in one plane.
+pub fn hull_faces(points: &[Vec3]) -> Option<Vec<[u32; 3]>> {
     let first = tetrahedron(points)?;
     let [a, b, c, d] = first;
     let mut faces: Vec<[u32; 3]> = vec![[a, b, c], [a, d, b], [b, d, c], [c, d, a]];
@@ -32,7 +43,7 @@ pub(crate) fn hull(points: &[Vec3]) -> Option<TriMesh> {
         faces.retain(|_| !seen.next().unwrap_or(false));
         faces.extend(new);
     }
-    Some(packed(points, &faces))
+    Some(faces)
 }
 
 /// Only the vertices that faces use.
@@ -70,7 +81,6 @@ fn tetrahedron(points: &[Vec3]) -> Option<[u32; 4]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stone::tests::ball;
 
     #[test]
     fn hulls_of_known_bodies() {
@@ -81,10 +91,15 @@ mod tests {
         let found = hull(&points).unwrap();
         assert_eq!(found.open_edges(), 0);
         assert!((found.volume() - 4.0 * 0.4 * 12.0).abs() < 1e-12, "{}", found.volume());
-        let mesh = ball(1.0, 3);
-        let found = hull(&mesh.vertices).unwrap();
-        assert_eq!((found.vertices.len(), found.open_edges()), (mesh.vertices.len(), 0));
-        assert!((found.volume() - mesh.volume()).abs() < 1e-12);
+        // All points of a ball are on its hull.
+        let on_ball = |k: usize| {
+            let (z, turn) = ((k as f64 + 0.5) / 250.0 - 1.0, 2.4 * k as f64);
+            let r = (1.0 - z * z).sqrt();
+            Vec3::new(r * libm::cos(turn), r * libm::sin(turn), z)
+        };
+        let found = hull(&(0..500).map(on_ball).collect::<Vec<Vec3>>()).unwrap();
+        assert_eq!((found.vertices.len(), found.faces.len(), found.open_edges()), (500, 996, 0));
+        assert!((found.volume() / (4.0 / 3.0 * std::f64::consts::PI) - 1.0).abs() < 0.02);
         assert!(hull(&points[..25]).is_none(), "points in one plane");
     }
 
