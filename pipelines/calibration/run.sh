@@ -50,3 +50,7 @@ for k in $(seq "$repeats"); do tail -n +2 "$out/repeat-$k/found.csv"; done | awk
 calibrate "$here/free-flowing.toml" --data "heap=$out/lab/angles.csv" --data "discharge=$out/lab/rates.csv" --jobs "$jobs" --dir "$out/grains" -q \
   --plot "$docs/calibration-grains.png" --words "$out/grains.md" -o "$out/grains.csv"
 "$here/../stages/section.sh" "$page" grains < "$out/grains.md"
+
+# A core on lab-test: 96 of them, half a minute each.
+calibrate "$here/rock.toml" --jobs "$jobs" --dir "$out/rock" -q --plot "$docs/calibration-rock.png" --words "$out/rock.md" -o "$out/rock.csv"
+"$here/../stages/section.sh" "$page" rock < "$out/rock.md"

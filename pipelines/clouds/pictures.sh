@@ -59,7 +59,7 @@ scan Otira_1cm_grains.ply 0.03
 scan stonepile2_depthcam_120k.ply 0.01 --camera 35/40
 scan autzen_trim.laz 8 --camera 35/40
 # For docs/removal.md; its coordinates are in feet.
-cloud-crop "$data/clouds/autzen_trim.laz" --scale 0.3048 --ground 40,0.3,0.15 --scattered 3,0.1 --mark -q -o "$out/marked.ply"
+cloud-crop "$data/clouds/autzen_trim.laz" --scale 0.3048 --ground 20,0.3,0.1 --scattered 3,0.1 --mark -q -o "$out/marked.ply"
 dem-view "$out/marked.ply" --colour removed --size 800x450 -q -o "$docs/removal-marked.png"
 printf '\n## Drawings\n' >>"$out/data.md"
 drawing deme_cone.obj 0.05

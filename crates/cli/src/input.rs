@@ -198,7 +198,7 @@ impl Input {
 
     /// Warns of points that `cloud-crop --mark` would have removed.
     fn warn_of_marks(&self, cloud: &cloud::Cloud) {
-        let marks = cloud::crop::marks(cloud).iter().filter(|m| **m != 0).count();
+        let marks = cloud::crop::marks(cloud).unwrap_or_default().iter().filter(|m| **m != 0).count();
         if marks > 0 {
             let name = self.name();
             crate::warn(&format!(

@@ -5,13 +5,13 @@
 //! marked points, removes inside a `restore` stays all the same.
 
 use crate::grazing;
-use crate::ground::{self, Ground, GroundError};
+use crate::ground::{self, Ground, GroundError, Raster};
 use crate::outer::{self, Outer, Outside};
 use crate::points::{TooFar, check_reach};
 use crate::regions::{Action, Region};
-use crate::scatter::{self, Scattered};
+use crate::scatter::{self, Scattered, TooWide};
 use crate::{Cloud, largest, outliers};
-use geom::{Shape, Vec3};
+use geom::{Shape, Shown, Vec3};
 use rayon::prelude::*;
 use serde::Serialize;
 use stream::Values;
@@ -96,12 +96,18 @@ pub enum CropError {
     TooFar(#[from] TooFar),
     #[error(transparent)]
     Ground(#[from] GroundError),
+    #[error(transparent)]
+    Scattered(#[from] TooWide),
     #[error("--grazing: the cloud states no viewpoint: give --seen-from x,y,z, where the scanner stood")]
     NoViewpoint,
     #[error(
-        "--restore: nothing is removed that could be restored: no rule is given, and the cloud has no marks (--mark)"
+        "--restore: nothing is removed that could be restored: give a rule such as --ground (shapes are not undone), or a cloud with marks (--mark)"
     )]
     NothingToRestore,
+    #[error(
+        "--mark: no rule is given, and the cloud has no marks, so nothing would be marked: add --ground, --outliers …"
+    )]
+    NothingToMark,
     #[error("--mark: the cloud has a property '{MARK}' that --mark did not write: rename it first")]
     OtherMarks,
 }
@@ -127,15 +133,21 @@ pub struct Cropped {
     pub outliers: usize,
     /// Points whose surface lies along the line of sight.
     pub grazing: usize,
+    /// Where scanners stood [m], when they were asked for.
+    pub viewpoints: Vec<[f64; 3]>,
     /// Points of the ground.
     pub ground: usize,
+    /// How it was found.
+    pub ground_raster: Option<Raster>,
     /// Points on no surface.
     pub scattered: usize,
     /// Points of smaller parts.
     pub smaller_parts: usize,
     /// Points of these, and of those that were marked before, that were restored.
     pub restored: usize,
-    /// Points that stay.
+    /// Rules that could not judge the cloud, and why.
+    pub idle: Vec<String>,
+    /// Points that stay, or would where they are marked.
     pub points_out: usize,
 }
 
@@ -193,67 +205,85 @@ impl ShapeTest<'_> {
 /// A point farther away than distances to others can be computed with, where a rule asks for them and no shape has taken it away; a rule
 /// without what it needs.
 pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), CropError> {
-    let points = &cloud.points;
-    let mut report = Cropped { points_in: points.len(), ..Cropped::default() };
-    report.regions = rules.regions.iter().map(|region| count(points, region)).collect();
-    if rules.mark && marks(cloud).is_empty() && cloud.attributes.get(MARK).is_some() {
-        return Err(CropError::OtherMarks);
-    }
+    let mut report = Cropped { points_in: cloud.points.len(), ..Cropped::default() };
+    report.regions = rules.regions.iter().map(|region| count(&cloud.points, region)).collect();
     let mut sieve = Sieve::new(cloud, rules);
     report.not_finite = sieve.count(|r| r == NOT_FINITE);
     report.outside_shapes = sieve.count(|r| r == Reason::Shape as u8);
     report.marked_before = sieve.count(|r| r & BEFORE != 0);
+    refuse(cloud, rules, report.marked_before)?;
     if !rules.outer.shapes.is_empty() {
-        let beyond = sieve.apply(Reason::Outer, |some| {
-            let beyond = outer::beyond(some, &rules.outer);
-            (all_but(some.len(), &beyond.rows), beyond)
-        });
+        let beyond = outer::beyond(&sieve.points(), &rules.outer);
         report.beyond_outer = beyond.rows.len();
+        let all: Vec<u32> = (0..sieve.rows().len() as u32).collect();
+        let stay: Vec<u32> = without(&all, &beyond.rows).collect();
+        sieve.keep(Reason::Outer, &stay);
         report.beyond = Some(beyond);
     }
     if rules.measure() {
-        check_reach(sieve.rows().iter().map(|&r| (r as usize, &points[r as usize])))?;
+        check_reach(sieve.rows().iter().map(|&r| (r as usize, &cloud.points[r as usize])))?;
     }
-    if let Some(rule) = &rules.outliers {
-        report.outliers = sieve.keep(Reason::Outlier, |some| outliers::inliers(some, rule));
-    }
-    if let Some(degrees) = rules.grazing {
-        let eyes: Vec<Vec3> = rules.seen_from.iter().copied().chain(cloud.viewpoints()).collect();
-        if eyes.is_empty() {
-            return Err(CropError::NoViewpoint);
-        }
-        report.grazing = sieve.keep(Reason::Grazing, |some| grazing::faced(some, &eyes, degrees));
-    }
-    if let Some(rule) = &rules.ground {
-        let above = sieve.apply(Reason::Ground, |some| match ground::above(some, rule) {
-            Ok(rows) => (rows, Ok(())),
-            Err(e) => (Vec::new(), Err(e)),
-        });
-        above?;
-        report.ground = sieve.count(|r| r == Reason::Ground as u8);
-    }
-    if let Some(rule) = &rules.scattered {
-        report.scattered = sieve.keep(Reason::Scattered, |some| scatter::compact(some, rule));
-    }
-    if let Some(radius) = rules.largest {
-        report.smaller_parts = sieve.keep(Reason::SmallerPart, |some| largest::largest(some, radius));
-    }
-    if !rules.restore.is_empty() {
-        if !rules.measure() && report.marked_before == 0 {
-            return Err(CropError::NothingToRestore);
-        }
-        report.restored = sieve.restore(&rules.restore);
-    }
+    measure(cloud, rules, &mut sieve, &mut report)?;
+    report.restored = sieve.restore(&rules.restore);
     report.points_out = sieve.rows().len();
     Ok((sieve.cloud(cloud, rules.mark), report))
 }
 
-/// The marks of a cloud ([`MARK`]); empty where it has none.
-pub fn marks(cloud: &Cloud) -> &[u8] {
-    match cloud.attributes.get(MARK) {
-        Some(Values::U8(marks)) => marks,
-        _ => &[],
+/// Refuses what would change nothing, or needs what is not there.
+fn refuse(cloud: &Cloud, rules: &Rules, marked: usize) -> Result<(), CropError> {
+    let given = |option: bool, error: CropError| if option { Err(error) } else { Ok(()) };
+    let foreign = marks(cloud).is_none() && cloud.attributes.get(MARK).is_some();
+    given(rules.mark && foreign, CropError::OtherMarks)?;
+    given(rules.mark && rules.removes_nothing() && marked == 0, CropError::NothingToMark)?;
+    let none = !rules.measure() && marked == 0;
+    given(!rules.restore.is_empty() && none, CropError::NothingToRestore)?;
+    let blind = rules.seen_from.is_empty() && cloud.viewpoints().next().is_none();
+    given(rules.grazing.is_some() && blind, CropError::NoViewpoint)
+}
+
+/// The rules that look at points together, in their order.
+fn measure(cloud: &Cloud, rules: &Rules, sieve: &mut Sieve, report: &mut Cropped) -> Result<(), CropError> {
+    if let Some(rule) = &rules.outliers {
+        report.outliers = sieve.keep(Reason::Outlier, &outliers::inliers(&sieve.points(), rule));
     }
+    if let Some(degrees) = rules.grazing {
+        let eyes: Vec<Vec3> = rules.seen_from.iter().copied().chain(cloud.viewpoints()).collect();
+        let some = sieve.points();
+        if some.len() < grazing::FEWEST {
+            report.idle.push(format!("--grazing needs {} points, and has {}", grazing::FEWEST, some.len()));
+        }
+        report.grazing = sieve.keep(Reason::Grazing, &grazing::faced(&some, &eyes, degrees));
+        report.viewpoints = eyes.into_iter().map(Into::into).collect();
+    }
+    if let Some(rule) = &rules.ground {
+        let above = ground::above(&sieve.points(), rule)?;
+        if above.raster.is_none() {
+            report.idle.push("--ground needs more points, not all at one place".to_owned());
+        }
+        report.ground = sieve.keep(Reason::Ground, &above.rows);
+        report.ground_raster = above.raster;
+    }
+    if let Some(rule) = &rules.scattered {
+        let compact = scatter::compact(&sieve.points(), rule)?;
+        if compact.sparse {
+            let radius = Shown(rule.radius);
+            report.idle.push(format!(
+                "--scattered: most points have hardly another within {radius} m: give a RADIUS of several spacings of the scan"
+            ));
+        }
+        report.scattered = sieve.keep(Reason::Scattered, &compact.rows);
+    }
+    if let Some(radius) = rules.largest {
+        report.smaller_parts = sieve.keep(Reason::SmallerPart, &largest::largest(&sieve.points(), radius));
+    }
+    Ok(())
+}
+
+/// The marks of a cloud: of a property [`MARK`] of which every value is 0 or the number of a [`Reason`].
+pub fn marks(cloud: &Cloud) -> Option<Vec<u8>> {
+    let values = cloud.attributes.get(MARK)?.to_f64();
+    let reasons = 0..=Reason::SmallerPart as u8;
+    values.iter().map(|v| reasons.clone().find(|r| f64::from(*r) == *v)).collect()
 }
 
 /// Why each point goes.
@@ -272,12 +302,12 @@ impl<'a> Sieve<'a> {
     /// Shapes, and marks that a cloud has.
     fn new(cloud: &'a Cloud, rules: &Rules) -> Sieve<'a> {
         let judge = ShapeTest::new(rules);
-        let marks = marks(cloud);
+        let marks = marks(cloud).unwrap_or_default();
         let of = |(i, p): (usize, &Vec3)| match marks.get(i) {
             _ if !p.iter().all(|c| c.is_finite()) => NOT_FINITE,
             _ if !judge.stays(p) => Reason::Shape as u8,
             None | Some(0) => 0,
-            Some(mark) => BEFORE | *mark.min(&(Reason::SmallerPart as u8)),
+            Some(mark) => BEFORE | mark,
         };
         Sieve { points: &cloud.points, reasons: cloud.points.par_iter().enumerate().map(of).collect() }
     }
@@ -292,24 +322,17 @@ impl<'a> Sieve<'a> {
         (0u32..).zip(&self.reasons).filter(|(_, reason)| **reason == 0).map(|(i, _)| i).collect()
     }
 
-    /// Of the points so far, those stay that `choose` picks, by ascending rows; and what else it says.
-    fn apply<T>(&mut self, reason: Reason, choose: impl FnOnce(&[Vec3]) -> (Vec<u32>, T)) -> T {
-        let rows = self.rows();
-        let some: Vec<Vec3> = rows.iter().map(|&r| self.points[r as usize]).collect();
-        let (stay, more) = choose(&some);
-        for &row in &without(rows, &stay) {
-            self.reasons[row as usize] = reason as u8;
-        }
-        more
+    /// The points that stay so far [m].
+    fn points(&self) -> Vec<Vec3> {
+        self.rows().iter().map(|&r| self.points[r as usize]).collect()
     }
 
-    /// The same; says how many go.
-    fn keep(&mut self, reason: Reason, choose: impl FnOnce(&[Vec3]) -> Vec<u32>) -> usize {
-        self.apply(reason, |some| {
-            let stay = choose(some);
-            let gone = some.len() - stay.len();
-            (stay, gone)
-        })
+    /// Of the points so far, those at the given ascending places stay; says how many go.
+    fn keep(&mut self, reason: Reason, places: &[u32]) -> usize {
+        let rows = self.rows();
+        let stay: Vec<u32> = places.iter().map(|&place| rows[place as usize]).collect();
+        without(&rows, &stay).for_each(|row| self.reasons[row as usize] = reason as u8);
+        rows.len() - stay.len()
     }
 
     /// Points in the shapes come back if a rule or a mark has removed them; how many.
@@ -332,7 +355,7 @@ impl<'a> Sieve<'a> {
         let rows: Vec<u32> =
             (0u32..).zip(&self.reasons).filter(|(_, r)| !goes(**r)).map(|(i, _)| i).collect();
         let mut out = if rows.len() == cloud.points.len() { cloud.clone() } else { cloud.select(&rows) };
-        if !marks(cloud).is_empty() {
+        if marks(cloud).is_some() {
             out.attributes.remove(MARK);
         }
         if mark {
@@ -344,21 +367,15 @@ impl<'a> Sieve<'a> {
     }
 }
 
-/// Of `count` places those that are not among the given ascending ones.
-fn all_but(count: usize, places: &[u32]) -> Vec<u32> {
-    without((0..count as u32).collect(), places)
+/// Of ascending rows those that are not among others.
+fn without<'a>(rows: &'a [u32], others: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+    let mut others = others.iter().copied().peekable();
+    rows.iter().copied().filter(move |row| others.next_if_eq(row).is_none())
 }
 
 fn count(points: &[Vec3], region: &Region) -> RegionCount {
     let inside = points.par_iter().filter(|p| region.shape.contains(p)).count();
     RegionCount { name: region.name.clone(), action: region.action, points: inside }
-}
-
-/// The rows without those at the given ascending places.
-fn without(rows: Vec<u32>, places: &[u32]) -> Vec<u32> {
-    let mut gone = places.iter().copied().peekable();
-    let all = (0..).zip(rows);
-    all.filter_map(|(place, row): (u32, u32)| gone.next_if_eq(&place).is_none().then_some(row)).collect()
 }
 
 #[cfg(test)]

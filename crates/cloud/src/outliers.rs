@@ -9,11 +9,12 @@
 
 use crate::near::mean_distances;
 use geom::Vec3;
+use serde::Serialize;
 use std::str::FromStr;
 use thiserror::Error;
 
 /// How far is too far.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Outliers {
     /// Neighbours looked at [–].
     pub neighbours: usize,

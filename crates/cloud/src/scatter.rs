@@ -9,17 +9,22 @@
 //!
 //! Surface variation: Pauly, Gross & Kobbelt (2002), doi:10.1109/VISUAL.2002.1183771.
 
-use geom::{Grid, Vec3, least_axis};
+use geom::{Grid, Shown, Vec3, grid, least_axis};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
+use serde::Serialize;
 use std::str::FromStr;
 use thiserror::Error;
 
 /// Cells for a radius.
 const CELLS: f64 = 3.0;
+/// Smallest radius [m].
+const LEAST: f64 = 1e-6;
+/// Cells within reach that say something about a surface.
+const ENOUGH: usize = 6;
 
 /// When points are too scattered for a surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scattered {
     /// Reach of the neighbours that are looked at [m].
     pub radius: f64,
@@ -30,7 +35,7 @@ pub struct Scattered {
 /// Why a text is not `RADIUS,SHARE`.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "'{0}' is not RADIUS,SHARE: give a length above 0 [m] and a variation above 0 and up to 0.333, such as 0.2,0.1"
+    "'{0}' is not RADIUS,SHARE: give a length of {LEAST:e} m or more and a variation above 0 and up to 0.333, such as 0.2,0.1"
 )]
 pub struct ScatteredError(String);
 
@@ -42,18 +47,49 @@ impl FromStr for Scattered {
         let (radius, share) = text.split_once(',').ok_or_else(wrong)?;
         let [radius, share] = [radius, share].map(|n| geom::number::positive(n.trim()));
         match (radius, share) {
-            (Ok(radius), Ok(share)) if share <= 1.0 / 3.0 => Ok(Scattered { radius, share }),
+            (Ok(radius), Ok(share)) if radius >= LEAST && share <= 1.0 / 3.0 => {
+                Ok(Scattered { radius, share })
+            }
             _ => Err(wrong()),
         }
     }
 }
 
-/// Rows of the finite `points` [m] that are not scattered, in order.
-pub fn compact(points: &[Vec3], rule: &Scattered) -> Vec<u32> {
+/// Why a cloud cannot be judged.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error(
+    "--scattered: the cloud spans {} m, too much for cells of {} m (a third of RADIUS): remove points far away first (--outliers 12,3 in the same \
+     command, or --keep SHAPE)", Shown(*.span), Shown(*.cell)
+)]
+pub struct TooWide {
+    /// Longest side of the box of the points [m].
+    span: f64,
+    /// Width of the cells that the rule asks for [m].
+    cell: f64,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compact {
+    /// Rows that are not scattered, in order.
+    pub rows: Vec<u32>,
+    /// Whether most points have too few others within the radius to lie on a surface or not.
+    pub sparse: bool,
+}
+
+/// Judges the finite `points` [m].
+///
+/// # Errors
+/// Points so far apart that cells would be wider than a third of the radius.
+pub fn compact(points: &[Vec3], rule: &Scattered) -> Result<Compact, TooWide> {
     if points.is_empty() {
-        return Vec::new();
+        return Ok(Compact { rows: Vec::new(), sparse: false });
     }
     let cells = Grid::new(points, rule.radius / CELLS);
+    if cells.cell() > rule.radius / CELLS {
+        let (low, high) = grid::bounds(points);
+        return Err(TooWide { span: (high - low).max(), cell: rule.radius / CELLS });
+    }
     let (_, starts) = cells.filled();
     let rows = |run: &[u32]| &cells.order()[run[0] as usize..run[1] as usize];
     let mean = |run: &[u32]| {
@@ -61,20 +97,21 @@ pub fn compact(points: &[Vec3], rule: &Scattered) -> Vec<u32> {
         rows.iter().map(|&i| points[i as usize]).sum::<Vec3>() / rows.len() as f64
     };
     let means: Vec<Vec3> = starts.par_windows(2).map(mean).collect();
-    let grid = Grid::new(&means, rule.radius);
-    let near = |p: &Vec3| -> Vec<u32> { grid.within(&means, *p, rule.radius).collect() };
+    let reach = Grid::new(&means, rule.radius);
+    let near = |p: &Vec3| -> Vec<u32> { reach.within(&means, *p, rule.radius).collect() };
     let variations: Vec<f64> =
         means.par_iter().map(|p| variation(&covariance(&means, p, &near(p)))).collect();
-    let is_scattered = |p: &Vec3| {
+    let judge = |p: &Vec3| {
         let near = near(p);
         let sum: f64 = near.iter().map(|&c| variations[c as usize]).sum();
-        sum >= rule.share * near.len() as f64
+        (sum >= rule.share * near.len() as f64, near.len() < ENOUGH)
     };
-    let scattered: Vec<bool> = means.par_iter().map(is_scattered).collect();
-    let runs = starts.windows(2).zip(scattered).filter(|(_, scattered)| !scattered);
+    let judged: Vec<(bool, bool)> = means.par_iter().map(judge).collect();
+    let runs = starts.windows(2).zip(&judged).filter(|(_, (scattered, _))| !scattered);
     let mut stay: Vec<u32> = runs.flat_map(|(run, _)| rows(run)).copied().collect();
     stay.sort_unstable();
-    stay
+    let few = judged.iter().filter(|(_, few)| *few).count();
+    Ok(Compact { rows: stay, sparse: 2 * few > judged.len() })
 }
 
 /// Of some of the points, about their mean; `p` is one of them, or near.

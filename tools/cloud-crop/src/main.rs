@@ -24,7 +24,7 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
     Examples:\n\
     \x20 cloud-crop scan.ply --remove halfspace:0,0,-0.1,0,0,-1 -o cropped.ply\n\
     \x20 cloud-crop scan.ply --outliers 12,3 --largest 0.03 | cloud-fill -o filled.ply\n\
-    \x20 cloud-crop scan.ply --grazing 80 --seen-from 0,0,1.8 --ground 3,0.05 --mark -o marked.ply\n\
+    \x20 cloud-crop scan.ply --grazing 75 --seen-from 0,0,1.8 --ground 3,0.05 --mark -o marked.ply\n\
     \x20 cloud-crop scan.ply --outer box:-1,-1,-1,1,1,1 --check";
 
 /// Keep or remove points of a cloud by shapes, named regions, outliers and connected parts
@@ -74,7 +74,7 @@ struct Args {
     /// Keep points inside SHAPE that the rules behind the outer shape, or marks, remove (repeat)
     #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
     restore: Vec<Shape>,
-    /// Keep all points, and write into the property `removed` why each would go: for dem-view --pick
+    /// Keep all points with finite coordinates, and write into the property `removed` why each would go: for dem-view --pick
     #[arg(long)]
     mark: bool,
 }
@@ -95,14 +95,16 @@ fn crop(args: Args) -> anyhow::Result<Report> {
     };
     let cloud = args.input.go_on(opened)?;
     let (kept, counts) = match cloud::crop(&cloud, &rules) {
-        Err(e @ (CropError::NoViewpoint | CropError::NothingToRestore)) => {
+        Err(e @ (CropError::NoViewpoint | CropError::NothingToRestore | CropError::NothingToMark)) => {
             return Err(cli::usage(format!("{}: {e}", args.input.name())));
         }
         done => done.with_context(|| args.input.name())?,
     };
-    words::warn(&counts);
-    let mut report = Report::new(words::summary(&counts)).with_all(&counts);
-    report = report.with("tolerance", rules.outer.tolerance);
+    words::warn(&counts, &rules);
+    let mut report = Report::new(words::summary(&counts, &rules)).with_all(&counts);
+    report = report.with("tolerance", rules.outer.tolerance).with("points_written", kept.points.len());
+    report = report.with("outliers_rule", rules.outliers).with("grazing_angle", rules.grazing);
+    report = report.with("ground_rule", rules.ground).with("scattered_rule", rules.scattered);
     if args.check {
         return words::checked(&counts, report);
     }
@@ -115,11 +117,11 @@ fn crop(args: Args) -> anyhow::Result<Report> {
 fn rows(args: &Args, blocks: Blocks<impl Read>, rules: &Rules) -> anyhow::Result<Report> {
     let (kept, counts) = crop_rows::crop_rows(blocks, rules).with_context(|| args.input.name())?;
     args.input.warn_about(&kept.warnings);
-    words::warn(&counts);
+    words::warn(&counts, rules);
     let mut out = args.output.to.open()?;
     kept.write(&mut out).with_context(|| format!("{}: cannot write", args.output.to.name()))?;
     out.commit()?;
-    Ok(Report::new(words::summary(&counts)).with_all(&counts).with("tolerance", rules.outer.tolerance))
+    Ok(Report::new(words::summary(&counts, rules)).with_all(&counts).with("tolerance", rules.outer.tolerance))
 }
 
 impl Args {
@@ -147,11 +149,6 @@ fn rules(args: &Args) -> anyhow::Result<Rules> {
         let text = stream::whole::text(file).with_context(|| format!("{}: cannot read", file.display()))?;
         let folder = file.parent().unwrap_or(Path::new(""));
         cloud::regions::add_regions(&mut rules, &text, folder).with_context(|| file.display().to_string())?;
-    }
-    if args.mark && rules.removes_nothing() && args.outer.is_empty() {
-        return Err(cli::usage(
-            "--mark: no rule is given, so nothing would be marked: add --ground, --outliers …".to_owned(),
-        ));
     }
     rules.outer.shapes.extend(args.outer.iter().cloned());
     rules.outer.tolerance = args.tolerance.unwrap_or(rules.outer.tolerance);
@@ -185,7 +182,7 @@ fn positive(text: &str) -> Result<f64, String> {
 
 fn grazing(text: &str) -> Result<f64, String> {
     let degrees = geom::number::positive(text).ok().filter(|d| *d < 90.0);
-    degrees.ok_or_else(|| "give an angle above 0 and below 90 degrees, such as 80".into())
+    degrees.ok_or_else(|| "give an angle above 0 and below 90 degrees, such as 75".into())
 }
 
 /// Refuses a file name of another format than PLY.

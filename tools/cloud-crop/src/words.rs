@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use cli::Report;
-use cloud::crop::Cropped;
+use cloud::crop::{Cropped, Rules};
 use cloud::outer::OutsidePart;
 use geom::Shown;
 use std::io::Write;
@@ -11,7 +11,7 @@ use std::io::Write;
 const TOLD: usize = 8;
 
 /// What looks like a mistake.
-pub fn warn(counts: &Cropped) {
+pub fn warn(counts: &Cropped, rules: &Rules) {
     if counts.not_finite > 0 {
         cli::warn(&format!("{} points without finite coordinates were dropped", counts.not_finite));
     }
@@ -21,24 +21,37 @@ pub fn warn(counts: &Cropped) {
             region.name
         ));
     }
+    counts.idle.iter().for_each(|why| cli::warn(why));
+    if !rules.restore.is_empty() && counts.restored == 0 {
+        cli::warn(
+            "--restore: no point in the shapes was removed by a rule or a mark: compare their coordinates with those of the cloud",
+        );
+    }
     if counts.points_out == 0 && counts.points_in > 0 {
-        cli::warn("no point is left: compare the coordinates of the shapes with those of the cloud");
+        let by_shapes = counts.points_in == counts.not_finite + counts.outside_shapes + counts.beyond_outer;
+        let cure = if by_shapes {
+            "compare the coordinates of the shapes with those of the cloud"
+        } else {
+            "the rules remove too much"
+        };
+        cli::warn(&format!("no point is left: {cure}"));
     }
 }
 
 /// One line.
-pub fn summary(counts: &Cropped) -> String {
-    let mut kept = format!("{} of {} points kept", counts.points_out, counts.points_in);
-    let rules = [
-        (counts.marked_before, "marked before"),
-        (counts.outliers, "outliers"),
-        (counts.grazing, "grazing"),
-        (counts.ground, "ground"),
-        (counts.scattered, "scattered"),
-        (counts.smaller_parts, "in smaller parts"),
-        (counts.restored, "restored"),
+pub fn summary(counts: &Cropped, rules: &Rules) -> String {
+    let verb = if rules.mark { "stay; the others are marked" } else { "kept" };
+    let mut kept = format!("{} of {} points {verb}", counts.points_out, counts.points_in);
+    let told = [
+        (counts.marked_before > 0, counts.marked_before, "marked before"),
+        (rules.outliers.is_some(), counts.outliers, "outliers"),
+        (rules.grazing.is_some(), counts.grazing, "grazing"),
+        (rules.ground.is_some(), counts.ground, "ground"),
+        (rules.scattered.is_some(), counts.scattered, "scattered"),
+        (rules.largest.is_some(), counts.smaller_parts, "in smaller parts"),
+        (!rules.restore.is_empty(), counts.restored, "restored"),
     ];
-    for (k, (count, what)) in rules.iter().filter(|(count, _)| *count > 0).enumerate() {
+    for (k, (_, count, what)) in told.iter().filter(|(given, _, _)| *given).enumerate() {
         kept += &format!("{} {count} {what}", if k == 0 { ":" } else { "," });
     }
     match &counts.beyond {

@@ -61,7 +61,6 @@ pub struct Outcome {
     pub scores: Vec<Score>,
     /// Holes that are none.
     pub false_finds: usize,
-    pub seconds: f64,
 }
 
 /// Fills a cloud without cuts; scans have holes of their own.
@@ -153,9 +152,7 @@ fn off_scan(cut: &Cut, p: &Vec3) -> f64 {
 /// Fills the cloud without the cuts and says what became of them; `own` are holes that the whole cloud has.
 pub fn outcome(body: Body, points: Vec<Vec3>, cuts: &[Cut], own: &[(Vec3, f64)]) -> Result<Outcome, String> {
     let count = points.len();
-    let begun = std::time::Instant::now();
     let filled = fill(points)?;
-    let seconds = begun.elapsed().as_secs_f64();
     let holes = &filled.report.holes;
     let added = &filled.cloud.points[count..];
     let centre = |h: &cloud::fill::HoleReport| Vec3::from(h.centre);
@@ -177,6 +174,5 @@ pub fn outcome(body: Body, points: Vec<Vec3>, cuts: &[Cut], own: &[(Vec3, f64)])
         points: count,
         scores: cuts.par_iter().map(of).collect(),
         false_finds: holes.iter().filter(is_false).count(),
-        seconds,
     })
 }

@@ -36,11 +36,10 @@ impl Row {
         let (found, all) = self.found(8.0, f64::INFINITY);
         let points: usize = self.outcomes.iter().map(|o| o.points).sum();
         let false_finds: usize = self.outcomes.iter().map(|o| o.false_finds).sum();
-        let seconds: f64 = self.outcomes.iter().map(|o| o.seconds).sum();
         let sum = |a: (f64, usize), s: &Score| (a.0 + s.squares.0, a.1 + s.squares.1);
         let (squares, added) = self.scores().filter(|s| s.found).fold((0.0, 0), sum);
         format!(
-            "| {} | {} | {:.1} % | {:.2} | {} | {:.2} | {:.1} | {:.1} |\n",
+            "| {} | {} | {:.1} % | {:.2} | {} | {:.2} | {:.1} |\n",
             self.name,
             columns.join(" | "),
             100.0 * found as f64 / all.max(1) as f64,
@@ -48,7 +47,6 @@ impl Row {
             if matches!(self.body, Some(Body::Scan(_))) { self.own.to_string() } else { "–".to_owned() },
             (squares / added.max(1) as f64).sqrt(),
             median(self.scores().filter(|s| s.found).map(|s| s.hausdorff)),
-            1e6 * seconds / points.max(1) as f64,
         )
     }
 }
@@ -61,9 +59,9 @@ pub fn sum(name: &str, rows: &[Row]) -> Row {
 
 pub fn table<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
     let head = "| cut out of | found: 3–6 spacings wide | 6–8 | 8–12 | 12–25 | 25–60 | 8 and more | false per 10⁵ points | own holes | RMS [spacings] | \
-                Hausdorff, median [spacings] | time [µs/point] |\n";
+                Hausdorff, median [spacings] |\n";
     let lines: String = rows.into_iter().map(Row::line).collect();
-    format!("{head}|{}\n{lines}", "---|".repeat(12))
+    format!("{head}|{}\n{lines}", "---|".repeat(11))
 }
 
 /// The median of some numbers.

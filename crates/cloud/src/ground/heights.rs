@@ -3,6 +3,9 @@
 use geom::{Vec3, grid};
 use rayon::prelude::*;
 
+/// Cells as low as a pit that may be around it.
+const ALIKE: usize = 2;
+
 /// Heights by cell; NaN where nothing is known.
 #[derive(Debug, Clone)]
 pub struct Heights {
@@ -28,11 +31,6 @@ impl Heights {
         all
     }
 
-    /// Number of cells.
-    pub fn cells(&self) -> usize {
-        self.z.len()
-    }
-
     /// Cells along the longer side.
     pub fn widest(&self) -> usize {
         self.size[0].max(self.size[1])
@@ -44,43 +42,81 @@ impl Heights {
         Heights { z, ..*self }
     }
 
-    /// Erosion, then dilation, by squares that reach `reach` cells to each side. Cells without a height stay so, and count in neither.
+    /// Erosion, then dilation, by squares that reach so many cells to each side and lie wholly within the raster; a side of the raster that is too
+    /// short for any has shorter ones. Every cell has a height.
     pub fn opened(&self, reach: usize) -> Heights {
-        let eroded = self.each_square(&self.z, reach, f64::min);
-        // Only cells that have a height have an eroded one: else the scan's own border would hold up what stands there.
-        let eroded: Vec<f64> = self.kept(eroded);
-        let opened = self.each_square(&eroded, reach, f64::max);
-        Heights { z: self.kept(opened), ..*self }
+        let reach = self.size.map(|n| reach.min((n - 1) / 2));
+        let mut eroded = self.each_square(&self.z, reach, f64::min);
+        let [nx, ny] = self.size;
+        let within = |at: usize, reach: usize, n: usize| at >= reach && at + reach < n;
+        for (k, z) in eroded.iter_mut().enumerate() {
+            if !(within(k % nx, reach[0], nx) && within(k / nx, reach[1], ny)) {
+                *z = f64::NEG_INFINITY;
+            }
+        }
+        Heights { z: self.each_square(&eroded, reach, f64::max), ..*self }
     }
 
-    /// NaN where this has no height.
-    fn kept(&self, z: Vec<f64>) -> Vec<f64> {
-        z.into_iter().zip(&self.z).map(|(z, own)| if own.is_nan() { f64::NAN } else { z }).collect()
+    /// Whether each cell is lower by more than `step` [m] than all but two of the cells around it, up to two away; not where few are known.
+    pub fn pits(&self, step: f64) -> Vec<bool> {
+        let [nx, ny] = self.size;
+        let is_pit = |k: usize| {
+            let [x, y] = [k % nx, k / nx];
+            let rows = y.saturating_sub(2)..(y + 3).min(ny);
+            let around = rows.flat_map(|y| &self.z[y * nx + x.saturating_sub(2)..y * nx + (x + 3).min(nx)]);
+            let known: Vec<f64> = around.copied().filter(|z| !z.is_nan()).collect();
+            // The cell itself is one of them.
+            let alike = known.iter().filter(|z| *z - self.z[k] <= step).count();
+            !self.z[k].is_nan() && alike <= ALIKE + 1 && known.len() > 3 * ALIKE
+        };
+        (0..self.z.len()).into_par_iter().map(is_pit).collect()
     }
 
-    /// Cells that are lower by more than `step` [m] in another raster of the same size.
-    pub fn lowered_by_more<'a>(&'a self, other: &'a Heights, step: f64) -> impl Iterator<Item = usize> + 'a {
-        let both = self.z.iter().zip(&other.z).enumerate();
-        both.filter(move |(_, (z, other))| *z - *other > step).map(|(k, _)| k)
+    /// Whether each cell is higher by more than `step` [m] than in another raster of the same size; not where there is no height.
+    pub fn above_by(&self, other: &Heights, step: f64) -> Vec<bool> {
+        self.z.iter().zip(&other.z).map(|(z, other)| z - other > step).collect()
     }
 
     /// The least or greatest of the squares around each cell: along rows, then along columns.
-    fn each_square(&self, z: &[f64], reach: usize, better: fn(f64, f64) -> f64) -> Vec<f64> {
+    fn each_square(&self, z: &[f64], reach: [usize; 2], better: fn(f64, f64) -> f64) -> Vec<f64> {
         let [nx, ny] = self.size;
-        let rows: Vec<f64> = z.par_chunks(nx).flat_map_iter(|row| running(row, reach, better)).collect();
+        let rows: Vec<f64> = z.par_chunks(nx).flat_map_iter(|row| running(row, reach[0], better)).collect();
         let turned = turned(&rows, nx);
         let columns: Vec<f64> =
-            turned.par_chunks(ny).flat_map_iter(|column| running(column, reach, better)).collect();
+            turned.par_chunks(ny).flat_map_iter(|column| running(column, reach[1], better)).collect();
         self::turned(&columns, ny)
+    }
+
+    /// Every cell gets a height, those without one the lowest of those around.
+    pub fn lowered(self) -> Heights {
+        if self.is_known() {
+            return self;
+        }
+        let coarse = self.halved(|z: &mut dyn Iterator<Item = f64>| z.fold(f64::NAN, f64::min)).lowered();
+        let [nx, _] = self.size;
+        let fill = |(k, z): (usize, &f64)| {
+            if z.is_nan() { coarse.z[k / nx / 2 * coarse.size[0] + k % nx / 2] } else { *z }
+        };
+        let z = self.z.par_iter().enumerate().map(fill).collect();
+        Heights { z, ..self }
+    }
+
+    /// Whether all cells have a height, or none: there is nothing to fill, or nothing to fill with.
+    fn is_known(&self) -> bool {
+        self.z.iter().all(|z| z.is_nan()) || self.z.iter().all(|z| !z.is_nan())
     }
 
     /// Every cell gets a height, those without one by the cells around: means of coarser and coarser rasters, and back by interpolation (the
     /// pull and push of Gortler et al. 1996, doi:10.1145/237170.237200).
     pub fn filled(self) -> Heights {
-        if self.z.iter().all(|z| z.is_nan()) || self.z.iter().all(|z| !z.is_nan()) {
+        if self.is_known() {
             return self;
         }
-        let coarse = self.halved().filled();
+        let mean = |z: &mut dyn Iterator<Item = f64>| {
+            let (sum, count) = z.fold((0.0, 0.0), |(sum, count), z| (sum + z, count + 1.0));
+            sum / count
+        };
+        let coarse = self.halved(mean).filled();
         let [nx, _] = self.size;
         let fill = |(k, z): (usize, &f64)| {
             let place = [k % nx, k / nx].map(|c| 0.5 * (c as f64 - 0.5));
@@ -90,19 +126,17 @@ impl Heights {
         Heights { z, ..self }
     }
 
-    /// Means of two by two cells.
-    fn halved(&self) -> Heights {
+    /// What stands for the known ones of two by two cells.
+    fn halved(&self, of: impl Fn(&mut dyn Iterator<Item = f64>) -> f64 + Sync) -> Heights {
         let [nx, ny] = self.size;
         let size = [nx.div_ceil(2), ny.div_ceil(2)];
-        let mean = |k: usize| {
+        let one = |k: usize| {
             let [x, y] = [2 * (k % size[0]), 2 * (k / size[0])];
             let four = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
-            let known = four.iter().filter(|(x, y)| *x < nx && *y < ny).map(|(x, y)| self.z[y * nx + x]);
-            let (sum, count) =
-                known.filter(|z| !z.is_nan()).fold((0.0, 0.0), |(sum, count), z| (sum + z, count + 1.0));
-            sum / count
+            let there = four.iter().filter(|(x, y)| *x < nx && *y < ny).map(|(x, y)| self.z[y * nx + x]);
+            of(&mut there.filter(|z| !z.is_nan()))
         };
-        let z = (0..size[0] * size[1]).into_par_iter().map(mean).collect();
+        let z = (0..size[0] * size[1]).into_par_iter().map(one).collect();
         Heights { cell: 2.0 * self.cell, size, z, ..*self }
     }
 
@@ -125,7 +159,7 @@ impl Heights {
         let height = (a * (1.0 - u) + b * u) * (1.0 - v) + (c * (1.0 - u) + d * u) * v;
         let along_x = (b - a) * (1.0 - v) + (d - c) * v;
         let along_y = (c - a) * (1.0 - u) + (d - b) * u;
-        (height, along_x.hypot(along_y))
+        (height, (along_x * along_x + along_y * along_y).sqrt())
     }
 }
 
