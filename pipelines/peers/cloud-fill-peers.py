@@ -12,6 +12,7 @@ cloud, cuts, out = sys.argv[1:4]
 cuts = numpy.atleast_2d(numpy.loadtxt(cuts, delimiter=",", skiprows=1))
 points = open3d.io.read_point_cloud(cloud)
 spacing = float(numpy.median(cuts[:, 4]))
+radii = [spacing * r for r in (1.5, 3, 6, 12, 24, 36)]
 points.estimate_normals(open3d.geometry.KDTreeSearchParamKNN(30))
 points.orient_normals_consistent_tangent_plane(20)
 
@@ -21,8 +22,7 @@ def open3d_poisson():
 
 
 def open3d_pivoting():
-    radii = open3d.utility.DoubleVector([spacing * r for r in (1.5, 3, 6, 12, 24, 36)])
-    return open3d.geometry.TriangleMesh.create_from_point_cloud_ball_pivoting(points, radii)
+    return open3d.geometry.TriangleMesh.create_from_point_cloud_ball_pivoting(points, open3d.utility.DoubleVector(radii))
 
 
 def meshlab(work):
@@ -40,7 +40,10 @@ def meshlab_poisson():
 
 
 def meshlab_pivoting():
-    return meshlab(lambda m: m.generate_surface_reconstruction_ball_pivoting(ballradius=pymeshlab.PureValue(12 * spacing)))
+    def work(meshes):
+        for radius in radii:
+            meshes.generate_surface_reconstruction_ball_pivoting(ballradius=pymeshlab.PureValue(radius), deletefaces=False)
+    return meshlab(work)
 
 
 peers = {"Open3D, Poisson": open3d_poisson, "Open3D, ball pivoting": open3d_pivoting,

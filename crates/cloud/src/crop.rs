@@ -10,11 +10,12 @@ use crate::outer::{self, Outer, Outside};
 use crate::points::{TooFar, check_reach};
 use crate::regions::{Action, Region};
 use crate::scatter::{self, Scattered, TooWide};
+use crate::sieve::{BEFORE, NOT_FINITE, Sieve, without};
+pub use crate::sieve::{MARK, Reason, marks};
 use crate::{Cloud, largest, outliers};
 use geom::{Shape, Shown, Vec3};
 use rayon::prelude::*;
 use serde::Serialize;
-use stream::Values;
 use thiserror::Error;
 
 /// What to keep.
@@ -63,29 +64,6 @@ impl Rules {
         ];
         some.contains(&true) || self.largest.is_some()
     }
-}
-
-/// The property of marked clouds: 0, or the number of the [`Reason`].
-pub const MARK: &str = "removed";
-
-/// Why a point goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Reason {
-    /// It is in no shape to keep, or in one to remove.
-    Shape = 1,
-    /// It is beyond the outer shape.
-    Outer,
-    /// It is far from its neighbours.
-    Outlier,
-    /// Its surface lies along the line of sight.
-    Grazing,
-    /// It is ground.
-    Ground,
-    /// It is on no surface.
-    Scattered,
-    /// It belongs to a smaller part.
-    SmallerPart,
 }
 
 /// Why a cloud cannot be cropped.
@@ -277,100 +255,6 @@ fn measure(cloud: &Cloud, rules: &Rules, sieve: &mut Sieve, report: &mut Cropped
         report.smaller_parts = sieve.keep(Reason::SmallerPart, &largest::largest(&sieve.points(), radius));
     }
     Ok(())
-}
-
-/// The marks of a cloud: of a property [`MARK`] of which every value is 0 or the number of a [`Reason`].
-pub fn marks(cloud: &Cloud) -> Option<Vec<u8>> {
-    let values = cloud.attributes.get(MARK)?.to_f64();
-    let reasons = 0..=Reason::SmallerPart as u8;
-    values.iter().map(|v| reasons.clone().find(|r| f64::from(*r) == *v)).collect()
-}
-
-/// Why each point goes.
-struct Sieve<'a> {
-    points: &'a [Vec3],
-    /// 0 of a point that stays, else the number of a [`Reason`], with [`BEFORE`] of a point that was marked before; or [`NOT_FINITE`].
-    reasons: Vec<u8>,
-}
-
-/// Added to the number of a reason: an earlier crop has marked the point.
-const BEFORE: u8 = 64;
-/// The reason of points without finite coordinates; never written.
-const NOT_FINITE: u8 = 32;
-
-impl<'a> Sieve<'a> {
-    /// Shapes, and marks that a cloud has.
-    fn new(cloud: &'a Cloud, rules: &Rules) -> Sieve<'a> {
-        let judge = ShapeTest::new(rules);
-        let marks = marks(cloud).unwrap_or_default();
-        let of = |(i, p): (usize, &Vec3)| match marks.get(i) {
-            _ if !p.iter().all(|c| c.is_finite()) => NOT_FINITE,
-            _ if !judge.stays(p) => Reason::Shape as u8,
-            None | Some(0) => 0,
-            Some(mark) => BEFORE | mark,
-        };
-        Sieve { points: &cloud.points, reasons: cloud.points.par_iter().enumerate().map(of).collect() }
-    }
-
-    /// How many points have such a reason.
-    fn count(&self, has: impl Fn(u8) -> bool) -> usize {
-        self.reasons.iter().filter(|r| has(**r)).count()
-    }
-
-    /// Rows that stay so far.
-    fn rows(&self) -> Vec<u32> {
-        (0u32..).zip(&self.reasons).filter(|(_, reason)| **reason == 0).map(|(i, _)| i).collect()
-    }
-
-    /// The points that stay so far [m].
-    fn points(&self) -> Vec<Vec3> {
-        self.rows().iter().map(|&r| self.points[r as usize]).collect()
-    }
-
-    /// Of the points so far, those at the given ascending places stay; says how many go.
-    fn keep(&mut self, reason: Reason, places: &[u32]) -> usize {
-        let rows = self.rows();
-        let stay: Vec<u32> = places.iter().map(|&place| rows[place as usize]).collect();
-        without(&rows, &stay).for_each(|row| self.reasons[row as usize] = reason as u8);
-        rows.len() - stay.len()
-    }
-
-    /// Points in the shapes come back if a rule or a mark has removed them; how many.
-    fn restore(&mut self, shapes: &[Shape]) -> usize {
-        let by_rule = Reason::Outlier as u8..=Reason::SmallerPart as u8;
-        let mut count = 0;
-        for (reason, p) in self.reasons.iter_mut().zip(self.points) {
-            let can = *reason & BEFORE != 0 || by_rule.contains(reason);
-            if can && shapes.iter().any(|s| s.contains(p)) {
-                *reason = 0;
-                count += 1;
-            }
-        }
-        count
-    }
-
-    /// What stays; or all that is finite, with marks.
-    fn cloud(&self, cloud: &Cloud, mark: bool) -> Cloud {
-        let goes = |reason: u8| if mark { reason == NOT_FINITE } else { reason != 0 };
-        let rows: Vec<u32> =
-            (0u32..).zip(&self.reasons).filter(|(_, r)| !goes(**r)).map(|(i, _)| i).collect();
-        let mut out = if rows.len() == cloud.points.len() { cloud.clone() } else { cloud.select(&rows) };
-        if marks(cloud).is_some() {
-            out.attributes.remove(MARK);
-        }
-        if mark {
-            let marks = rows.iter().map(|&r| self.reasons[r as usize] & !BEFORE).collect();
-            let added = out.attributes.push(MARK, Values::U8(marks));
-            debug_assert!(added.is_ok(), "as many marks as rows, and no other column of this name");
-        }
-        out
-    }
-}
-
-/// Of ascending rows those that are not among others.
-fn without<'a>(rows: &'a [u32], others: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
-    let mut others = others.iter().copied().peekable();
-    rows.iter().copied().filter(move |row| others.next_if_eq(row).is_none())
 }
 
 fn count(points: &[Vec3], region: &Region) -> RegionCount {

@@ -29,6 +29,7 @@ pub mod regions;
 pub mod scatter;
 pub mod seen;
 mod sheet;
+mod sieve;
 pub mod sparse;
 mod step;
 mod surrounded;

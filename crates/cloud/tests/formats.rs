@@ -277,6 +277,8 @@ fn a_scan_of_terrain_has_the_numbers_that_another_reader_finds() {
         assert_eq!((at("intensity"), at("classification"), at("red")), (167.0, 1.0, 146.0));
         assert_eq!((at("gps_time"), at("point_source_id")), (245382.3918436729, 7326.0));
         assert_eq!(column(&cloud, "intensity").iter().sum::<f64>(), 38630.0);
+        assert_eq!((column(&cloud, "scan_flags").iter().sum::<f64>(), at("scan_flags")), (13184.0, 64.0));
+        assert!(cloud.comments[0].starts_with("coordinate reference system PROJCS["), "{:?}", cloud.comments);
         assert!((cloud.points.iter().map(|p| p.z).sum::<f64>() - 171997.38).abs() < 1e-6);
     }
 }

@@ -11,6 +11,7 @@
 mod checkpoint;
 mod error;
 pub mod explain;
+mod fallen;
 mod file;
 mod frames;
 mod integration;
@@ -28,6 +29,7 @@ mod write;
 
 pub use checkpoint::Checkpoint;
 pub use error::RunError;
+pub use fallen::Fallen;
 pub use file::RunFile;
 pub use integration::IntegrationError;
 pub use progress::Progress;

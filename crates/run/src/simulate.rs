@@ -2,6 +2,7 @@
 
 use crate::checkpoint::Checkpoint;
 use crate::error::{Ended, Result};
+use crate::fallen::Fallen;
 use crate::frames::WallHead;
 use crate::integration::IntegrationError;
 use crate::progress::Progress;
@@ -16,7 +17,7 @@ use dem::{Halt, Simulation};
 use record::{LogMessage, SIGNAL, json, nanoseconds, topic};
 use scene::advice::explain_halt;
 use scene::keys::Output;
-use scene::{Plan, Scene, SceneError};
+use scene::{Below, Plan, Scene, SceneError};
 use serde::Serialize;
 use stages::inlet::Arrival;
 use stages::outlet::path::PathRow;
@@ -69,6 +70,8 @@ pub struct Outcome {
     pub bonds: [usize; 2],
     /// Particles that sleep at the end.
     pub asleep: usize,
+    /// Particles that have fallen past all walls.
+    pub fallen: Option<Fallen>,
     /// Effects in force: name, pair, key.
     pub effects: Vec<String>,
     /// What made the steps, where this processor did not.
@@ -125,6 +128,8 @@ pub(crate) struct Written {
     pub wall_forces: bool,
     /// The periodic domain at the start, where a run cannot be read by its scene alone.
     pub domain: Option<[Option<(f64, f64)>; 3]>,
+    /// How far walls reach, where particles can fall past them.
+    pub below: Option<Below>,
     /// Steps between samples of paths, where any are recorded.
     pub sampling: Option<u64>,
     /// Whether the energy of each frame is computed for progress reports.
@@ -319,10 +324,14 @@ impl<W: Write> Run<W> {
         self.outcome.returned = self.sim.returned().clone();
         self.outcome.inflow = self.supply.ended(self.sim.time());
         self.outcome.servos = ServoHeld::all(&self.sim, &self.written.walls);
+        // Where a guard has stopped the run there may be no state to count in.
+        let fallen = self.written.below.map(|below| Fallen::count(&mut self.sim, &below));
+        self.outcome.fallen = fallen.and_then(|counted| counted.ok().flatten());
         let servos =
             self.outcome.servos.iter().map(|servo| servo.warning().unwrap_or_else(|| servo.to_string()));
         let line = self.outcome.integration.map(|error| error.to_string());
-        let lines: Vec<String> = line.into_iter().chain(servos).collect();
+        let fallen = self.outcome.fallen.map(|fallen| fallen.to_string());
+        let lines: Vec<String> = line.into_iter().chain(servos).chain(fallen).collect();
         let notes = [crate::warnings(&self.outcome.returned), self.outcome.inflow.clone()].concat();
         notes.into_iter().chain(lines).try_for_each(|note| self.note(&note))?;
         reason.map_or(Ok(()), |reason| self.stop(reason))?;

@@ -19,7 +19,7 @@ use stream::mcap::Writer;
 
 impl<W: Write> Run<W> {
     pub(crate) fn start(scene: &Scene, plan: Plan, out: W, settings: Settings<W>) -> Result<Run<W>> {
-        let Plan { mut setup, step, insertions, inlets, warnings, inputs, sizes } = plan;
+        let Plan { mut setup, step, insertions, inlets, warnings, inputs, sizes, below } = plan;
         let mut supply = Supply::new(inlets, insertions)?;
         if let Some(saved) = &settings.resume {
             saved.fits(&scene.text.toml, &inputs)?;
@@ -40,6 +40,7 @@ impl<W: Write> Run<W> {
         not_yet_over(sim.steps(), &schedule)?;
         written.sampling = sampling(scene, sim.dt())?;
         written.watched = settings.watched;
+        written.below = below;
         let mut writer = Writer::compressed(out, &settings.provenance, settings.how)?;
         for (name, record) in head.records([sim.dt(), sim.time()], &schedule, written.sampling) {
             writer.metadata(name, record)?;
@@ -101,6 +102,7 @@ impl Written {
             wall_forces: scene.keys.output.wall_forces == Some(true) || servo,
             sampling: None,
             watched: false,
+            below: None,
             ledger: setup.ledger,
             settling: Settling::of(&scene.keys.time),
         }

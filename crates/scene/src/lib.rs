@@ -24,6 +24,6 @@ pub use advice::SceneSetupError;
 pub use dem::setup::{ZoneMotion, ZoneTest};
 pub use error::{Result, SceneError, nearest};
 pub use input::Input;
-pub use plan::Plan;
+pub use plan::{Below, Plan};
 pub use scene::Scene;
 pub use text::Text;

@@ -3,6 +3,7 @@
 mod at_rest;
 mod continued;
 mod device;
+mod fallen;
 mod foretold;
 mod settled;
 mod stopped;

@@ -255,6 +255,7 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
         .iter()
         .chain(&outcome.inflow)
         .chain(&large)
+        .chain(&outcome.fallen.map(|fallen| fallen.to_string()))
         .chain(&outcome.servos.iter().filter_map(run::ServoHeld::warning).collect::<Vec<_>>())
         .for_each(|note| cli::warn(note));
     let held = outcome.servos.iter().filter(|servo| servo.warning().is_none());

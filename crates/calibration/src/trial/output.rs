@@ -46,10 +46,10 @@ pub fn outcome(run: &Run, test: &Test) -> Outcome {
 /// The curve that a run printed.
 fn curve(run: &Run, test: &Test) -> Result<Vec<(f64, f64)>> {
     let path = run::folder(&run.file).join(test.read.as_deref().unwrap_or("stdout"));
-    let text =
-        fs::read_to_string(&path).map_err(crate::error::file(&path, "cannot read what the command wrote"))?;
     let name = path.display().to_string();
     let fail = |message: String| CalibrateError::Test { test: test.name.clone(), message };
+    let text = fs::read_to_string(&path)
+        .map_err(|e| fail(format!("cannot read what the command wrote: {name}: {e}")))?;
     let Some(y) = &test.y else {
         let last = text.split_whitespace().last().unwrap_or_default();
         let number = last.parse::<f64>().ok().filter(|v| v.is_finite());

@@ -1,7 +1,7 @@
 //! Holes cut out of clouds, and found again: `holes_study CLOUDS PAGE.md` writes its table into the page and a picture beside it.
 //!
 //! CLOUDS is the folder of the scans; they are left out where it is not there. Every third set of cuts is kept out of tuning: the table shows
-//! these, and the sum of the others. `holes_study CLOUDS` prints the others, body by body.
+//! these, and the sum of the others. `holes_study CLOUDS` prints the others, body by body; with `--seen` or `--peers` behind it, the other tables.
 
 mod bodies;
 mod cuts;
@@ -27,6 +27,9 @@ fn main() -> ExitCode {
     let outcome = match words.as_slice() {
         [folder] => rows(Path::new(folder), false).map(|rows| print!("{}", page::table(&rows))),
         [_, part] if part == "--seen" => looks::table().map(|table| print!("{table}")),
+        [folder, part] if part == "--peers" => {
+            peers(Path::new(folder)).map(|table| print!("{}", table.unwrap_or_default()))
+        }
         [folder, file] => study(Path::new(folder), Path::new(file)),
         _ => {
             eprintln!("holes_study: usage: holes_study CLOUDS [PAGE.md]");
@@ -48,11 +51,12 @@ fn study(folder: &Path, file: &Path) -> Result<(), String> {
     let sums = [page::sum("all of these", &held_out), page::sum("the cuts of tuning", &tuning)];
     page::write(file, &held_out, &sums)?;
     page::replace(file, "holes-seen", &looks::table()?)?;
+    peers(folder)?.map_or(Ok(()), |table| page::replace(file, "holes-peers", &table))
+}
+
+fn peers(folder: &Path) -> Result<Option<String>, String> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../pipelines/peers/cloud-fill-peers.py");
-    match peers::table(folder, &script, SETS.1)? {
-        Some(table) => page::replace(file, "holes-peers", &table),
-        None => Ok(()),
-    }
+    peers::table(folder, &script, SETS.1)
 }
 
 fn rows(folder: &Path, held_out: bool) -> Result<Vec<Row>, String> {

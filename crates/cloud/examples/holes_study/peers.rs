@@ -114,20 +114,21 @@ fn scores(
         inside[0][k] = added.iter().filter(|p| (*p - cut.centre).norm() < cut.radius).copied().collect();
     }
     for line in text.lines() {
-        let words: Vec<&str> = line.split(',').collect();
-        let place = || {
-            Some([words.get(2)?, words.get(3)?, words.get(4)?].map(|w| w.parse::<f64>().unwrap_or(f64::NAN)))
-        };
-        let peer = NAMES.iter().position(|n| words.first() == Some(n));
-        if let (Some(peer), Some(cut), Some(place)) =
-            (peer, words.get(1).and_then(|w| w.parse::<usize>().ok()), place())
-        {
-            inside[peer][cut].push(Vec3::from(place));
-        }
+        let unread = || fail("cannot read the line", &line);
+        let (peer, cut, p) = parsed(line).filter(|(_, cut, _)| *cut < cuts.len()).ok_or_else(unread)?;
+        inside[peer][cut].push(p);
     }
     let _ = std::fs::remove_dir_all(&place);
     let of = |points: &Vec<Vec<Vec3>>| {
         cuts.iter().zip(points).map(|(cut, some)| Score::of(body, cut, some, true)).collect()
     };
     Ok(inside.iter().map(of).collect())
+}
+
+/// A line of the script: which peer, which cut, and a point [m].
+fn parsed(line: &str) -> Option<(usize, usize, Vec3)> {
+    let words: Vec<&str> = line.split(',').collect();
+    let [name, cut, x, y, z] = words[..] else { return None };
+    let peer = NAMES.iter().position(|n| *n == name)?;
+    Some((peer, cut.parse().ok()?, Vec3::new(x.parse().ok()?, y.parse().ok()?, z.parse().ok()?)))
 }

@@ -17,6 +17,8 @@ const CHUNK: u64 = 1 << 20;
 const ROOM: u64 = 1 << 26;
 /// Files below this [B] are unpacked by one thread.
 const SMALL: u64 = 1 << 22;
+/// Longest name of a coordinate reference system that a comment holds [B].
+const LONGEST: usize = 8192;
 /// Packed points of a byte of the file at most; scans have less than one.
 const DENSEST: u64 = 1000;
 
@@ -58,7 +60,26 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     for (name, values) in all.columns {
         attributes.push(name, values).map_err(|source| ReadError::Table { format: "LAS/LAZ", source })?;
     }
-    Ok(Cloud { points: all.points, attributes, double: true, ..Cloud::default() })
+    let comments = reference_system(&header).into_iter().collect();
+    Ok(Cloud { points: all.points, attributes, double: true, comments, ..Cloud::default() })
+}
+
+/// A comment that names the coordinate reference system: its EPSG code, or its well-known text.
+fn reference_system(header: &Header) -> Option<String> {
+    let geotiff = || {
+        let keys = header.get_geotiff_crs().ok()??;
+        let codes = [keys.get_projected_crs_geo_key_value(), keys.get_geodetic_crs_geo_key_value()];
+        // Codes from 32 767 on are of the user.
+        codes.into_iter().flatten().find(|code| (1..32_767).contains(code))
+    };
+    let text = || {
+        let text = String::from_utf8_lossy(header.get_wkt_crs_bytes()?);
+        let words: Vec<&str> =
+            text.split(|c: char| c.is_whitespace() || c.is_control()).filter(|w| !w.is_empty()).collect();
+        Some(words.join(" ")).filter(|text| !text.is_empty() && text.len() <= LONGEST)
+    };
+    let name = text().or_else(|| geotiff().map(|code| format!("EPSG:{code}")))?;
+    Some(format!("coordinate reference system {name}"))
 }
 
 /// Refuses scales that would bring all points to one coordinate, and numbers that are none.
@@ -189,6 +210,7 @@ fn columns_of(chunk: &PointData) -> Vec<(&'static str, Values)> {
         ("return_number", Values::U8(chunk.return_number().collect())),
         ("number_of_returns", Values::U8(chunk.number_of_returns().collect())),
         ("classification", Values::U8(chunk.classification().collect())),
+        ("scan_flags", Values::U8(scan_flags(chunk).collect())),
         ("scan_angle", Values::F32(chunk.scan_angle_degrees().collect())),
         ("user_data", Values::U8(chunk.user_data().collect())),
         ("point_source_id", wide(chunk.point_source_id())),
@@ -206,6 +228,18 @@ fn columns_of(chunk: &PointData) -> Vec<(&'static str, Values)> {
         columns.push(("nir", wide(nir)));
     }
     columns
+}
+
+/// The flags of each point, as the formats 6 and above have them in a byte: 1 synthetic, 2 key point, 4 withheld, 8 overlap, 16 and 32 the channel of
+/// the scanner, 64 the direction of the mirror, 128 the edge of a line (LAS 1.4 R15, tables 8 and 16).
+fn scan_flags(chunk: &PointData) -> impl Iterator<Item = u8> + '_ {
+    let (is_extended, length) = (chunk.format().is_extended, chunk.record_len().max(1));
+    let flags = move |record: &[u8]| match record.get(14..16) {
+        Some(&[_, flags]) if is_extended => flags,
+        Some(&[returns, class]) => returns & 0b1100_0000 | class >> 5,
+        _ => 0,
+    };
+    chunk.raw_bytes().chunks_exact(length).map(flags)
 }
 
 /// Numbers of 16 bits as 32: some readers of PLY skip `ushort`.

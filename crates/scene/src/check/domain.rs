@@ -9,7 +9,7 @@ const FASTEST: f64 = 1e6;
 
 impl Check<'_> {
     pub(super) fn domain(&self, m: &SceneKeys) -> Result<()> {
-        let Domain { periodic, low, high, source, strain } = &m.domain;
+        let Domain { periodic, low, high, source, strain, outside: _ } = &m.domain;
         for (key, corner) in [("domain.low", low), ("domain.high", high)] {
             self.finite(key, &corner.unwrap_or_default(), "m")?;
             if let (Some(source), Some(_)) = (source, corner) {

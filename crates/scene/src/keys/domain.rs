@@ -21,6 +21,20 @@ pub struct Domain {
     /// What periodic axes follow.
     #[serde(default)]
     pub strain: Strains,
+    /// What becomes of particles that have fallen past all walls.
+    #[serde(default)]
+    pub outside: Outside,
+}
+
+/// `domain.outside`
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outside {
+    /// They fall on.
+    #[default]
+    Keep,
+    /// An outlet below the walls takes them out.
+    Remove,
 }
 
 /// `domain.strain`: what each axis follows.

@@ -5,6 +5,7 @@
 //! of placing ([`packing`], [`random`], [`fill`]). Warnings about implausible values come last ([`warnings`]).
 
 mod accuracy;
+mod below;
 mod bonds;
 mod builder;
 mod clump_placement;
@@ -35,6 +36,7 @@ mod walls;
 mod warnings;
 mod zones;
 
+pub use below::Below;
 pub use builder::PlannedInlet;
 pub use contacts::{dropped, most_specific};
 pub use implausible::SOFT;
@@ -66,6 +68,8 @@ pub struct Plan {
     pub inputs: Vec<(String, String)>,
     /// Radii of all particles of the run; `None` when there are none.
     pub sizes: Option<Sizes>,
+    /// How far walls reach along gravity, where particles can fall past them and no outlet is there to take them out.
+    pub below: Option<Below>,
 }
 
 /// How far a `[[fill]]` is.
@@ -114,6 +118,7 @@ impl Scene {
         builder.inlets(streams)?;
         builder.insertions()?;
         builder.outlets()?;
+        builder.outside()?;
         builder.finish()
     }
 

@@ -11,6 +11,7 @@ impl PlanBuilder<'_> {
     pub(super) fn finish(mut self) -> Result<Plan> {
         let keys = self.keys();
         let sizes = self.sizes();
+        let below = self.below().ok().filter(|_| self.outlets.is_empty());
         let largest = sizes.map_or(0.0, |s| s.largest);
         let contacts = contacts::resolve(&self.check, &keys.contact, &self.materials, largest)?;
         let contacts = self.contacts_that_can_meet(contacts);
@@ -63,7 +64,7 @@ impl PlanBuilder<'_> {
         };
         let PlanBuilder { insertions, streams: inlets, mut warnings, inputs, .. } = self;
         warnings.extend(impact::warning(&setup, &insertions));
-        Ok(Plan { setup, step, insertions, inlets, warnings, inputs, sizes })
+        Ok(Plan { setup, step, insertions, inlets, warnings, inputs, sizes, below })
     }
 
     fn guards(&self) -> Guards {

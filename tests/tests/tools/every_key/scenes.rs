@@ -309,6 +309,21 @@ velocity = [0, 0, -1]
 rate = 0.5
 "#;
 
+/// Grains beside the only wall.
+const OUTSIDE: &str = r#"
+gravity = [0, 0, -9.81]
+[time]
+until = 0.002
+[domain]
+outside = "{outside}"
+[[wall]]
+name = "plate"
+source = "walls.mcap"
+[[particles]]
+source = "grains.csv"
+material = "sinter"
+"#;
+
 /// Every law between two materials, and bonds.
 const LAWS: &str = r#"
 [time]
@@ -485,6 +500,9 @@ pub fn scenes() -> Vec<(String, String)> {
     all.push(("strained".to_owned(), strained(corners, "stress = 1000, rate_limit = 1")));
     all.push(("strained-path".to_owned(), strained(corners, "path = { source = \"strain.csv\" }")));
     all.push(("strained-on".to_owned(), strained("source = \"strained.mcap\"\n", "rate = 0.5")));
+    for outside in ["keep", "remove"] {
+        all.push((format!("outside-{outside}"), of(&OUTSIDE.replace("{outside}", outside))));
+    }
     for (motion, length, test) in CUTS {
         all.push((format!("up-{motion}"), upstream(motion, length, test)));
         all.push((format!("down-{motion}"), downstream(motion, length, test)));

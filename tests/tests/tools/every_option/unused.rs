@@ -21,7 +21,7 @@ const REFUSED: &[(&str, &str)] = &[
         "cloud-fill flat.xyz --fill grid --seed 3",
         "--seed: --fill grid leaves nothing to chance: leave it out",
     ),
-    ("cloud-crop flat.xyz --mark", "--mark: no rule is given, so nothing would be marked"),
+    ("cloud-crop flat.xyz --mark", "flat.xyz: --mark: no rule is given, and the cloud has no marks"),
     (
         "cloud-crop flat.xyz --restore box:0,0,0,1,1,1",
         "flat.xyz: --restore: nothing is removed that could be restored",

@@ -1,0 +1,124 @@
+//! Why points go: marks, in memory and as a property of a cloud.
+
+use crate::Cloud;
+use crate::crop::{Rules, ShapeTest};
+use geom::{Shape, Vec3};
+use rayon::prelude::*;
+use stream::Values;
+
+/// The property of marked clouds: 0, or the number of the [`Reason`].
+pub const MARK: &str = "removed";
+
+/// Why a point goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Reason {
+    /// It is in no shape to keep, or in one to remove.
+    Shape = 1,
+    /// It is beyond the outer shape.
+    Outer,
+    /// It is far from its neighbours.
+    Outlier,
+    /// Its surface lies along the line of sight.
+    Grazing,
+    /// It is ground.
+    Ground,
+    /// It is on no surface.
+    Scattered,
+    /// It belongs to a smaller part.
+    SmallerPart,
+}
+
+/// The marks of a cloud: of a property [`MARK`] of which every value is 0 or the number of a [`Reason`].
+pub fn marks(cloud: &Cloud) -> Option<Vec<u8>> {
+    let values = cloud.attributes.get(MARK)?.to_f64();
+    let reasons = 0..=Reason::SmallerPart as u8;
+    values.iter().map(|v| reasons.clone().find(|r| f64::from(*r) == *v)).collect()
+}
+
+/// Why each point goes.
+pub(crate) struct Sieve<'a> {
+    points: &'a [Vec3],
+    /// 0 of a point that stays, else the number of a [`Reason`], with [`BEFORE`] of a point that was marked before; or [`NOT_FINITE`].
+    reasons: Vec<u8>,
+}
+
+/// Added to the number of a reason: an earlier crop has marked the point.
+pub(crate) const BEFORE: u8 = 64;
+/// The reason of points without finite coordinates; never written.
+pub(crate) const NOT_FINITE: u8 = 32;
+
+impl<'a> Sieve<'a> {
+    /// Shapes, and marks that a cloud has.
+    pub fn new(cloud: &'a Cloud, rules: &Rules) -> Sieve<'a> {
+        let judge = ShapeTest::new(rules);
+        let marks = marks(cloud).unwrap_or_default();
+        let of = |(i, p): (usize, &Vec3)| match marks.get(i) {
+            _ if !p.iter().all(|c| c.is_finite()) => NOT_FINITE,
+            _ if !judge.stays(p) => Reason::Shape as u8,
+            None | Some(0) => 0,
+            Some(mark) => BEFORE | mark,
+        };
+        Sieve { points: &cloud.points, reasons: cloud.points.par_iter().enumerate().map(of).collect() }
+    }
+
+    /// How many points have such a reason.
+    pub fn count(&self, has: impl Fn(u8) -> bool) -> usize {
+        self.reasons.iter().filter(|r| has(**r)).count()
+    }
+
+    /// Rows that stay so far.
+    pub fn rows(&self) -> Vec<u32> {
+        (0u32..).zip(&self.reasons).filter(|(_, reason)| **reason == 0).map(|(i, _)| i).collect()
+    }
+
+    /// The points that stay so far [m].
+    pub fn points(&self) -> Vec<Vec3> {
+        self.rows().iter().map(|&r| self.points[r as usize]).collect()
+    }
+
+    /// Of the points so far, those at the given ascending places stay; says how many go.
+    pub fn keep(&mut self, reason: Reason, places: &[u32]) -> usize {
+        let rows = self.rows();
+        let stay: Vec<u32> = places.iter().map(|&place| rows[place as usize]).collect();
+        without(&rows, &stay).for_each(|row| self.reasons[row as usize] = reason as u8);
+        rows.len() - stay.len()
+    }
+
+    /// Points in the shapes come back if a rule or a mark has removed them; how many.
+    pub fn restore(&mut self, shapes: &[Shape]) -> usize {
+        let by_rule = Reason::Outlier as u8..=Reason::SmallerPart as u8;
+        let mut count = 0;
+        for (reason, p) in self.reasons.iter_mut().zip(self.points) {
+            let can = *reason & BEFORE != 0 || by_rule.contains(reason);
+            if can && shapes.iter().any(|s| s.contains(p)) {
+                *reason = 0;
+                count += 1;
+            }
+        }
+        count
+    }
+
+    /// What stays; or all that is finite, with marks.
+    pub fn cloud(&self, cloud: &Cloud, mark: bool) -> Cloud {
+        let goes = |reason: u8| if mark { reason == NOT_FINITE } else { reason != 0 };
+        let rows: Vec<u32> =
+            (0u32..).zip(&self.reasons).filter(|(_, r)| !goes(**r)).map(|(i, _)| i).collect();
+        let mut out = if rows.len() == cloud.points.len() { cloud.clone() } else { cloud.select(&rows) };
+        if marks(cloud).is_some() {
+            out.attributes.remove(MARK);
+        }
+        if mark {
+            let marks = rows.iter().map(|&r| self.reasons[r as usize] & !BEFORE).collect();
+            let added = out.attributes.push(MARK, Values::U8(marks));
+            debug_assert!(added.is_ok(), "as many marks as rows, and no other column of this name");
+        }
+        out
+    }
+}
+
+/// Of ascending rows those that are not among others.
+pub(crate) fn without<'a>(rows: &'a [u32], others: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+    let mut others = others.iter().copied().peekable();
+    rows.iter().copied().filter(move |row| others.next_if_eq(row).is_none())
+}
