@@ -51,6 +51,6 @@ calibrate "$here/free-flowing.toml" --data "heap=$out/lab/angles.csv" --data "di
   --plot "$docs/calibration-grains.png" --words "$out/grains.md" -o "$out/grains.csv"
 "$here/../stages/section.sh" "$page" grains < "$out/grains.md"
 
-# A core on lab-test: 96 of them, half a minute each.
+# Cores on lab-test: 88 of them, half a minute each.
 calibrate "$here/rock.toml" --jobs "$jobs" --dir "$out/rock" -q --plot "$docs/calibration-rock.png" --words "$out/rock.md" -o "$out/rock.csv"
 "$here/../stages/section.sh" "$page" rock < "$out/rock.md"

@@ -38,7 +38,7 @@ impl PlanBuilder<'_> {
         Ok(())
     }
 
-    /// How far walls reach, or why nothing falls past them, or nobody knows where.
+    /// How far walls reach, or why nothing falls past them, or it is not known where.
     pub(super) fn below(&self) -> std::result::Result<Below, &'static str> {
         let keys = self.keys();
         let Some(down) = Vec3::from(keys.gravity).try_normalize(0.0) else {
