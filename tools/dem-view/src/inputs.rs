@@ -138,6 +138,8 @@ fn cloud(mut from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> 
     for column in cloud.attributes.columns() {
         table.push(&column.name, column.values.clone())?;
     }
+    // Millions of points are held once.
+    drop(cloud);
     let has = |column| table.get(column).is_some();
     let role = match (has("radius"), has("id")) {
         (true, true) => Role::Grains,

@@ -71,6 +71,24 @@ impl Depths {
         Some(Met { normal, radius, number: spheres + *number as usize, body: None })
     }
 
+    /// Keeps the balls that are seen at some sample only: of a cloud of millions most are behind others.
+    fn forget_hidden(&mut self) {
+        let all = self.balls.len() as u32;
+        let mut places = vec![NOTHING; self.balls.len()];
+        self.ball.iter().filter(|found| **found < all).for_each(|&found| places[found as usize] = 0);
+        let mut kept = 0;
+        for place in places.iter_mut().filter(|place| **place == 0) {
+            *place = kept;
+            kept += 1;
+        }
+        let mut seen = places.iter().map(|place| *place != NOTHING);
+        self.balls.retain(|_| seen.next().unwrap_or(false));
+        self.balls.shrink_to_fit();
+        for found in self.ball.iter_mut().filter(|found| **found != NOTHING) {
+            *found = if *found < all { places[*found as usize] } else { *found - all + kept };
+        }
+    }
+
     /// The number of what is at a sample, as in [`Met`].
     pub fn number(&self, sample: usize, spheres: usize) -> Option<usize> {
         let found = self.ball[sample] as usize;
@@ -107,6 +125,7 @@ pub fn splat(spheres: &Spheres, rods: &[Rod], lens: &Lens) -> Depths {
             }
         }
     });
+    depths.forget_hidden();
     depths
 }
 
