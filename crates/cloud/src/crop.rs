@@ -10,7 +10,7 @@ use crate::outer::{self, Outer, Outside};
 use crate::points::{TooFar, check_reach};
 use crate::regions::{Action, Region};
 use crate::scatter::{self, Scattered, TooWide};
-use crate::sieve::{BEFORE, NOT_FINITE, Sieve, without};
+use crate::sieve::{BEFORE, NOT_FINITE, Sieve};
 pub use crate::sieve::{MARK, Reason, marks};
 use crate::{Cloud, largest, outliers};
 use geom::{Shape, Shown, Vec3};
@@ -56,13 +56,11 @@ impl Rules {
 
     /// Whether a rule looks at points together.
     pub(crate) fn measure(&self) -> bool {
-        let some = [
-            self.outliers.is_some(),
-            self.grazing.is_some(),
-            self.ground.is_some(),
-            self.scattered.is_some(),
-        ];
-        some.contains(&true) || self.largest.is_some()
+        self.outliers.is_some()
+            || self.grazing.is_some()
+            || self.ground.is_some()
+            || self.scattered.is_some()
+            || self.largest.is_some()
     }
 }
 
@@ -193,17 +191,15 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), CropError>
     if !rules.outer.shapes.is_empty() {
         let beyond = outer::beyond(&sieve.points(), &rules.outer);
         report.beyond_outer = beyond.rows.len();
-        let all: Vec<u32> = (0..sieve.rows().len() as u32).collect();
-        let stay: Vec<u32> = without(&all, &beyond.rows).collect();
-        sieve.keep(Reason::Outer, &stay);
+        sieve.remove(Reason::Outer, &beyond.rows);
         report.beyond = Some(beyond);
     }
     if rules.measure() {
-        check_reach(sieve.rows().iter().map(|&r| (r as usize, &cloud.points[r as usize])))?;
+        check_reach(sieve.staying())?;
     }
     measure(cloud, rules, &mut sieve, &mut report)?;
     report.restored = sieve.restore(&rules.restore);
-    report.points_out = sieve.rows().len();
+    report.points_out = sieve.count(|r| r == 0);
     Ok((sieve.cloud(cloud, rules.mark), report))
 }
 

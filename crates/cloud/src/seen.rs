@@ -178,14 +178,15 @@ impl View {
         let own = f64::from(self.nearest[own]);
         let in_front = |nearest: f64| nearest < range - margin;
         let mut known = around.iter().filter(|n| n.is_finite()).peekable();
-        if own.is_finite() {
-            match around.iter().all(|n| *n > range + margin) {
-                _ if in_front(own) => Sight::Shadow,
-                true => Sight::Free,
-                false => Sight::Unseen,
-            }
-        } else if known.peek().is_some() && known.all(|n| in_front(*n)) {
+        let hidden = if own.is_finite() {
+            in_front(own)
+        } else {
+            known.peek().is_some() && known.all(|n| in_front(*n))
+        };
+        if hidden {
             Sight::Shadow
+        } else if own.is_finite() && around.iter().all(|n| *n > range + margin) {
+            Sight::Free
         } else {
             Sight::Unseen
         }

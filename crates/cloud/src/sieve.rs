@@ -67,22 +67,38 @@ impl<'a> Sieve<'a> {
         self.reasons.iter().filter(|r| has(**r)).count()
     }
 
-    /// Rows that stay so far.
-    pub fn rows(&self) -> Vec<u32> {
-        (0u32..).zip(&self.reasons).filter(|(_, reason)| **reason == 0).map(|(i, _)| i).collect()
+    /// The points that stay so far, with their rows [m].
+    pub fn staying(&self) -> impl Iterator<Item = (usize, &'a Vec3)> {
+        let all = self.points.iter().enumerate().zip(&self.reasons);
+        all.filter(|(_, reason)| **reason == 0).map(|(point, _)| point)
     }
 
     /// The points that stay so far [m].
     pub fn points(&self) -> Vec<Vec3> {
-        self.rows().iter().map(|&r| self.points[r as usize]).collect()
+        self.staying().map(|(_, p)| *p).collect()
     }
 
     /// Of the points so far, those at the given ascending places stay; says how many go.
     pub fn keep(&mut self, reason: Reason, places: &[u32]) -> usize {
-        let rows = self.rows();
-        let stay: Vec<u32> = places.iter().map(|&place| rows[place as usize]).collect();
-        without(&rows, &stay).for_each(|row| self.reasons[row as usize] = reason as u8);
-        rows.len() - stay.len()
+        self.judge(reason, places, true)
+    }
+
+    /// Of the points so far, those at the given ascending places go.
+    pub fn remove(&mut self, reason: Reason, places: &[u32]) {
+        self.judge(reason, places, false);
+    }
+
+    fn judge(&mut self, reason: Reason, places: &[u32], listed_stay: bool) -> usize {
+        let mut places = places.iter().copied().peekable();
+        let mut gone = 0;
+        for (place, own) in (0u32..).zip(self.reasons.iter_mut().filter(|own| **own == 0)) {
+            let listed = places.next_if_eq(&place).is_some();
+            if listed != listed_stay {
+                *own = reason as u8;
+                gone += 1;
+            }
+        }
+        gone
     }
 
     /// Points in the shapes come back if a rule or a mark has removed them; how many.
@@ -115,10 +131,4 @@ impl<'a> Sieve<'a> {
         }
         out
     }
-}
-
-/// Of ascending rows those that are not among others.
-pub(crate) fn without<'a>(rows: &'a [u32], others: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
-    let mut others = others.iter().copied().peekable();
-    rows.iter().copied().filter(move |row| others.next_if_eq(row).is_none())
 }

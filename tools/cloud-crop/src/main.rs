@@ -101,10 +101,7 @@ fn crop(args: Args) -> anyhow::Result<Report> {
         done => done.with_context(|| args.input.name())?,
     };
     words::warn(&counts, &rules);
-    let mut report = Report::new(words::summary(&counts, &rules)).with_all(&counts);
-    report = report.with("tolerance", rules.outer.tolerance).with("points_written", kept.points.len());
-    report = report.with("outliers_rule", rules.outliers).with("grazing_angle", rules.grazing);
-    report = report.with("ground_rule", rules.ground).with("scattered_rule", rules.scattered);
+    let report = words::report(&counts, &rules, kept.points.len());
     if args.check {
         return words::checked(&counts, report);
     }
@@ -121,7 +118,7 @@ fn rows(args: &Args, blocks: Blocks<impl Read>, rules: &Rules) -> anyhow::Result
     let mut out = args.output.to.open()?;
     kept.write(&mut out).with_context(|| format!("{}: cannot write", args.output.to.name()))?;
     out.commit()?;
-    Ok(Report::new(words::summary(&counts, rules)).with_all(&counts).with("tolerance", rules.outer.tolerance))
+    Ok(words::report(&counts, rules, counts.points_out))
 }
 
 impl Args {

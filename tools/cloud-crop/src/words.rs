@@ -38,8 +38,20 @@ pub fn warn(counts: &Cropped, rules: &Rules) {
     }
 }
 
+/// Everything, of a crop that wrote so many points.
+pub fn report(counts: &Cropped, rules: &Rules, written: usize) -> Report {
+    Report::new(summary(counts, rules))
+        .with_all(counts)
+        .with("tolerance", rules.outer.tolerance)
+        .with("points_written", written)
+        .with("outliers_rule", rules.outliers)
+        .with("grazing_angle", rules.grazing)
+        .with("ground_rule", rules.ground)
+        .with("scattered_rule", rules.scattered)
+}
+
 /// One line.
-pub fn summary(counts: &Cropped, rules: &Rules) -> String {
+fn summary(counts: &Cropped, rules: &Rules) -> String {
     let verb = if rules.mark { "stay; the others are marked" } else { "kept" };
     let mut kept = format!("{} of {} points {verb}", counts.points_out, counts.points_in);
     let told = [

@@ -136,7 +136,14 @@ fn cloud(mut from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> 
         table.push(column, axis(k))?;
     }
     for column in cloud.attributes.columns() {
-        table.push(&column.name, column.values.clone())?;
+        let is_mark = args.pick && column.name == ::cloud::crop::MARK;
+        let values = match is_mark.then(|| ::cloud::crop::marks(&cloud)) {
+            None => column.values.clone(),
+            // A page takes bytes for marks: cloud-crop says what is one.
+            Some(Some(marks)) => Values::U8(marks),
+            Some(None) => Values::F64(column.values.to_f64()),
+        };
+        table.push(&column.name, values)?;
     }
     // Millions of points are held once.
     drop(cloud);

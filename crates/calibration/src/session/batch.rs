@@ -138,7 +138,7 @@ impl Session<'_> {
         for (k, tests) in phases.iter().enumerate() {
             let runs = self.prepare(&new, tests, work)?;
             if self.list {
-                let open: Vec<PathBuf> = once(&runs)
+                let open: Vec<PathBuf> = once(runs.iter().flatten())
                     .into_iter()
                     .filter(|r| !is_done(&r.file, &r.job, u64::MAX))
                     .map(|r| r.file)
@@ -148,7 +148,7 @@ impl Session<'_> {
                     return Ok(false);
                 }
             } else {
-                self.work_off(&once(&runs), work, &step.name)?;
+                self.work_off(&once(runs.iter().flatten()), work, &step.name)?;
             }
             for (tried, runs) in new.iter_mut().zip(&runs) {
                 self.collect(tried, runs);
@@ -226,7 +226,7 @@ impl Session<'_> {
 
     /// Reads what the runs of a trial printed.
     fn collect(&self, tried: &mut Tried, runs: &[Run]) {
-        for run in once(&[runs.to_vec()]) {
+        for run in once(runs) {
             tried.seconds += seconds(trial::run::ended(&run.file, &run.job));
         }
         for run in runs {
@@ -278,10 +278,10 @@ impl Session<'_> {
     }
 }
 
-/// The runs of all trials, each once.
-fn once(runs: &[Vec<Run>]) -> Vec<Run> {
+/// Runs that tests share, each once.
+fn once<'a>(runs: impl IntoIterator<Item = &'a Run>) -> Vec<Run> {
     let mut files = std::collections::BTreeSet::new();
-    runs.iter().flatten().filter(|r| files.insert(r.file.clone())).cloned().collect()
+    runs.into_iter().filter(|r| files.insert(&r.file)).cloned().collect()
 }
 
 fn note(tried: &mut Tried, status: Status, why: String) {

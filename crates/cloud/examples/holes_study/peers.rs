@@ -83,13 +83,34 @@ fn scores(
     let points = body.points(SET + 1, folder)?;
     let (points, cuts) = cuts::cut(&points, count, SET);
     let cuts: Vec<Cut> = cuts.into_iter().filter(|c| 2.0 * c.radius >= 8.0 * c.spacing).collect();
+    let added = cuts::fill(points.clone())?.cloud.points.split_off(points.len());
+    let mut inside = vec![vec![Vec::new(); cuts.len()]; NAMES.len()];
+    for (k, cut) in cuts.iter().enumerate() {
+        inside[0][k] = added.iter().filter(|p| (*p - cut.centre).norm() < cut.radius).copied().collect();
+    }
+    for (peer, cut, p) in ask(&points, &cuts, script, python)? {
+        inside[peer][cut].push(p);
+    }
+    let of = |points: &Vec<Vec<Vec3>>| {
+        cuts.iter().zip(points).map(|(cut, some)| Score::of(body, cut, some, true)).collect()
+    };
+    Ok(inside.iter().map(of).collect())
+}
+
+/// What the script says: which peer puts which points into which cut [m].
+fn ask(
+    points: &[Vec3],
+    cuts: &[Cut],
+    script: &Path,
+    python: &str,
+) -> Result<Vec<(usize, usize, Vec3)>, String> {
     let place = std::env::temp_dir().join(format!("holes-study-{}", std::process::id()));
     let fail = |what: &str, why: &dyn std::fmt::Display| format!("{}: {what}: {why}", place.display());
     std::fs::create_dir_all(&place).map_err(|e| fail("cannot create", &e))?;
     let [cloud, list, out] = ["cloud.ply", "cuts.csv", "out.csv"].map(|name| place.join(name));
     let whole = Cloud {
         attributes: Table::with_rows(points.len()),
-        points: points.clone(),
+        points: points.to_vec(),
         double: true,
         ..Cloud::default()
     };
@@ -108,21 +129,12 @@ fn scores(
         return Err(fail(&script.display().to_string(), &status));
     }
     let text = std::fs::read_to_string(&out).map_err(|e| fail("cannot read", &e))?;
-    let added = cuts::fill(points.clone())?.cloud.points.split_off(points.len());
-    let mut inside = vec![vec![Vec::new(); cuts.len()]; NAMES.len()];
-    for (k, cut) in cuts.iter().enumerate() {
-        inside[0][k] = added.iter().filter(|p| (*p - cut.centre).norm() < cut.radius).copied().collect();
-    }
-    for line in text.lines() {
-        let unread = || fail("cannot read the line", &line);
-        let (peer, cut, p) = parsed(line).filter(|(_, cut, _)| *cut < cuts.len()).ok_or_else(unread)?;
-        inside[peer][cut].push(p);
-    }
     let _ = std::fs::remove_dir_all(&place);
-    let of = |points: &Vec<Vec<Vec3>>| {
-        cuts.iter().zip(points).map(|(cut, some)| Score::of(body, cut, some, true)).collect()
+    let read = |line: &str| {
+        let known = parsed(line).filter(|(_, cut, _)| *cut < cuts.len());
+        known.ok_or_else(|| fail("cannot read the line", &line))
     };
-    Ok(inside.iter().map(of).collect())
+    text.lines().map(read).collect()
 }
 
 /// A line of the script: which peer, which cut, and a point [m].

@@ -69,9 +69,10 @@ fn reach(wall: &Wall, down: &Vec3, until: f64) -> f64 {
         WallShape::Plane(_) => return f64::NEG_INFINITY,
         WallShape::Mesh(mesh) => geom::grid::bounds(&mesh.vertices),
         WallShape::Spheres(spheres) => {
-            let corners: Vec<Vec3> =
-                spheres.iter().flat_map(|(c, r)| [c - Vec3::repeat(*r), c + Vec3::repeat(*r)]).collect();
-            geom::grid::bounds(&corners)
+            let nothing = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+            spheres.iter().fold(nothing, |(low, high), (centre, radius)| {
+                (low.inf(&centre.add_scalar(-radius)), high.sup(&centre.add_scalar(*radius)))
+            })
         }
     };
     let corner = |k: usize| Vec3::from([0, 1, 2].map(|a| if k >> a & 1 == 0 { low[a] } else { high[a] }));

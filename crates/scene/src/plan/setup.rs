@@ -11,7 +11,7 @@ impl PlanBuilder<'_> {
     pub(super) fn finish(mut self) -> Result<Plan> {
         let keys = self.keys();
         let sizes = self.sizes();
-        let below = self.below().ok().filter(|_| self.outlets.is_empty());
+        let below = if self.outlets.is_empty() { self.below().ok() } else { None };
         let largest = sizes.map_or(0.0, |s| s.largest);
         let contacts = contacts::resolve(&self.check, &keys.contact, &self.materials, largest)?;
         let contacts = self.contacts_that_can_meet(contacts);

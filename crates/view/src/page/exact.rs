@@ -3,8 +3,7 @@
 use std::sync::Arc;
 use stream::{Table, Values};
 
-/// The property in which `cloud-crop --mark` writes which points it would remove.
-/// As of `cloud::crop::MARK`, which this crate does not use.
+/// The property in which `cloud-crop --mark` writes which points it would remove, as bytes: `cloud::crop::marks` says what a mark is.
 const MARK: &str = "removed";
 
 /// Positions as 4-byte numbers where these hold every bit, else as 8-byte numbers.
