@@ -178,3 +178,56 @@ fn what_a_guard_stops_is_outside_of_the_posterior() {
     let f = &judged.findings[0];
     assert!(f.high < 6.5 && f.value < 4.7 && judged.trials[1] > 0, "{f:?} {:?}", judged.trials);
 }
+
+/// A line y = a + b x that a guard cannot stop; small specimens are weaker (`bias` over their size), and scatter more. Each run is logged.
+fn specimens(bias: f64, within: &str) -> String {
+    let command = format!(
+        "echo {{size}} >> {{here}}/log; awk -v seed={{seed}} 'BEGIN {{ srand(seed); rand(); print \"x,y\"; for (k = 0; k <= 10; k++) print k \",\" \
+         {{a}} + k * {{b}} - {bias} / {{size}} + 4 * (rand() - 0.5) / {{size}} }}'"
+    );
+    let parameter = |name: &str| format!("[[parameter]]\nname = \"{name}\"\nbounds = [0, 10]\n");
+    let test = |name: &str, more: &str| {
+        format!(
+            "[[test]]\nname = \"{name}\"\ncommand = '''{command}{more}'''\nx = \"x\"\ny = \"y\"\ndata = \"lab.csv\"\ndeviation = 0.3\n"
+        )
+    };
+    let step = |name: &str, size: u32, more: &str| {
+        format!(
+            "[[step]]\nname = \"{name}\"\nfit = \"all\"\nto = [\"line\"]\nwith = {{ size = {size} }}\ntrials = 24\nfirst = 12\n{more}"
+        )
+    };
+    let steps = step("small", 4, "") + &step("large", 40, within);
+    [parameter("a"), parameter("b"), test("line", ""), test("other", " # another"), steps].concat()
+}
+
+#[test]
+fn small_specimens_say_where_large_ones_look_and_a_step_runs_its_own_tests() {
+    let folder = TempDir::new().unwrap();
+    let rows: String = (0..=10).map(|k| format!("{k},{}\n", 3.0 + 2.0 * f64::from(k))).collect();
+    fs::write(folder.path().join("lab.csv"), format!("x,y\n{rows}")).unwrap();
+    let (judged, _) = found(folder.path(), &specimens(0.5, "within = \"small\"\n"), &[]).unwrap();
+    for (f, truth) in judged.findings.iter().zip([3.0, 2.0]) {
+        assert!((f.value - truth).abs() < 0.1 * truth && f.low < truth && truth < f.high, "{f:?}");
+        assert!(f.step == "large" && f.cut_by.is_none(), "{f:?}");
+    }
+    // The log has one line for each trial: the test that no step fits to is not run.
+    let log = fs::read_to_string(folder.path().join("log")).unwrap();
+    let runs = |size: &str| log.lines().filter(|l| *l == size).count();
+    assert_eq!(runs("4") + runs("40"), judged.trials.iter().sum::<usize>(), "{log}");
+    let trials = fs::read_to_string(folder.path().join("trials/trials.csv")).unwrap();
+    let spread = |step: &str, column: usize| {
+        let of = trials.lines().filter(|l| l.split(',').nth(1) == Some(step));
+        let values: Vec<f64> = of.map(|l| l.split(',').nth(column).unwrap().parse().unwrap()).collect();
+        values.iter().copied().fold(f64::MIN, f64::max) - values.iter().copied().fold(f64::MAX, f64::min)
+    };
+    assert!(spread("small", 7) > 8.0 && spread("large", 7) < 3.0, "{trials}");
+    // Small specimens that mislead: said, not hidden.
+    let _ = fs::remove_dir_all(folder.path().join("trials"));
+    let (judged, _) = found(folder.path(), &specimens(20.0, "within = \"small\"\n"), &[]).unwrap();
+    assert_eq!(judged.findings[0].cut_by.as_deref(), Some("small"), "{judged:?}");
+    let warnings = calibration::words::warnings(&judged);
+    assert!(
+        warnings.iter().any(|w| w.contains("reaches the end of what step 'small' has left")),
+        "{warnings:?}"
+    );
+}

@@ -95,6 +95,35 @@ fn recipes_are_refused_with_place_and_cure() {
             "[[step]]\nname = \"s\"\nfit = \"mu\"\nto = [{ test = \"shear\", from = 7 }]\n[[test]]",
             "its data reach from 0 to 5",
         ),
+        (
+            "trials = 40",
+            "trials = 40\nwith = { n = 5 }",
+            "with: 'n' changes nothing: no command has the blank {n}",
+        ),
+        ("trials = 40", "trials = 40\nwith = { mu = 5 }", "with: 'mu' is a parameter"),
+        ("trials = 40", "trials = 40\nwith = { seed = 5 }", "other than seed and here"),
+        ("{mu}", "{mu} {n}", "nothing fills the blank {n}"),
+        (
+            "data = \"lab.csv\"",
+            "data = \"lab.csv\"\n[[test]]\nname = \"sized\"\ncommand = \"model {mu} {n}\"\nvalue = 1\ndeviation = 1\n\
+             [[step]]\nname = \"small\"\nfit = \"mu\"\nwith = { n = 3 }\n[[step]]\nname = \"large\"\nfit = \"mu\"\n",
+            "step 'large': nothing fills the blank {n} of test 'sized': add with = { n = … }",
+        ),
+        (
+            "[[test]]",
+            "[[step]]\nname = \"s\"\nfit = \"mu\"\nwithin = \"s\"\n[[test]]",
+            "within: no step 's' comes before",
+        ),
+        (
+            "[[test]]",
+            "[[step]]\nname = \"s\"\nfit = \"mu\"\n[[step]]\nname = \"t\"\nfit = \"young\"\nwithin = \"s\"\n[[test]]",
+            "within: changes nothing: that step fits none of these parameters",
+        ),
+        (
+            "[[test]]",
+            "[[step]]\nname = \"s\"\nfit = \"mu\"\n[[step]]\nname = \"s\"\nfit = \"young\"\n[[test]]",
+            "name = \"s\": is there twice: give the steps different names",
+        ),
     ] {
         let found = why(from, to);
         assert!(found.contains(message), "{to}: {found}");

@@ -7,6 +7,7 @@
 
 use super::Fitted;
 use super::halton::Halton;
+use super::region::Region;
 use super::sample::{Length, Samples};
 use crate::emulator::{Gp, Prediction};
 use geom::random::{generator, unit};
@@ -38,9 +39,9 @@ struct Candidate {
 }
 
 /// The even points of a step, from the `from`-th on.
-pub(crate) fn even(d: usize, seed: u64, from: usize, count: usize) -> Vec<Vec<f64>> {
+pub(crate) fn even(region: &Region, d: usize, seed: u64, from: usize, count: usize) -> Vec<Vec<f64>> {
     let sequence = Halton::new(d, seed);
-    (from..from + count).map(|k| sequence.point(k as u64)).collect()
+    (from..from + count).map(|k| region.at(&sequence.point(k as u64))).collect()
 }
 
 /// Length of the chains that candidates are taken from.
@@ -74,8 +75,8 @@ pub(crate) fn choose(
     let mut points = Vec::new();
     for k in 0..count {
         if (number + k) % 8 == 7 {
-            let d = fitted.step.fit.len();
-            points.push(Halton::new(d, seeds.0).point((fitted.step.first + (number + k) / 8) as u64));
+            let from = fitted.step.first + (number + k) / 8;
+            points.extend(even(&fitted.region, fitted.step.fit.len(), seeds.0, from, 1));
             continue;
         }
         let free: Vec<usize> = (0..candidates.len()).filter(|&c| apart(&candidates[c].z, &points)).collect();

@@ -4,20 +4,28 @@ pub(crate) mod choice;
 mod feasible;
 pub(crate) mod halton;
 pub mod next;
+pub(crate) mod region;
 pub(crate) mod sample;
 pub(crate) mod sensitivity;
 
 use crate::emulator::{Emulator, Lessons, Logs, MOST_TRIALS, distance};
 use crate::recipe::{Part, Recipe, Step};
 use crate::session::{Status, Tried};
+use crate::trial::Trial;
 use feasible::Feasible;
 use nalgebra::{DMatrix, DVector};
-use sample::{Length, Samples, draw};
+use region::Region;
+use sample::{Length, Sample, Samples, draw};
+
+/// Trials that chains may begin at.
+const MOST_KNOWN: usize = 60;
 
 /// What a step has learnt.
 pub(crate) struct Fitted<'a> {
     pub recipe: &'a Recipe,
     pub step: &'a Step,
+    /// Where it looks.
+    pub region: Region,
     /// An emulator for each part of the step.
     pub emulators: Vec<Emulator>,
     /// Where trials come to their end.
@@ -42,22 +50,24 @@ pub(crate) fn part_misfit(recipe: &Recipe, part: &Part, tried: &Tried) -> Option
     Some(distance(&target.covariance(&of), &off))
 }
 
-/// Whether a trial differs from the held parameters only in those of the step.
-fn belongs(step: &Step, held: &[f64], z: &[f64]) -> bool {
-    (0..z.len()).all(|k| step.fit.contains(&k) || (z[k] - held[k]).abs() < 1e-9)
+/// Whether a step learns from a trial: its specimens are alike, and it differs from the held parameters only in those of the step.
+fn belongs(recipe: &Recipe, step: &Step, held: &[f64], trial: &Trial) -> bool {
+    let z = &trial.z;
+    recipe.steps[trial.step].with == step.with
+        && (0..z.len()).all(|k| step.fit.contains(&k) || (z[k] - held[k]).abs() < 1e-9)
 }
 
 impl<'a> Fitted<'a> {
-    /// Learns from the trials of a step; `before` are the lengths of the fit before.
+    /// Learns from the trials of a step, which holds other parameters and looks at a region; `before` are the lengths of the fit before.
     pub fn learn(
         recipe: &'a Recipe,
         step: &'a Step,
         tried: &[Tried],
-        held: &[f64],
+        (held, region): (&[f64], &Region),
         before: &[Vec<Logs>],
     ) -> Option<Fitted<'a>> {
         let own = |z: &[f64]| -> Vec<f64> { step.fit.iter().map(|&k| z[k]).collect() };
-        let mine: Vec<&Tried> = tried.iter().filter(|t| belongs(step, held, &t.trial.z)).collect();
+        let mine: Vec<&Tried> = tried.iter().filter(|t| belongs(recipe, step, held, &t.trial)).collect();
         let emulator = |(k, part): (usize, &Part)| {
             let target = recipe.tests[part.test].target.as_ref()?;
             let of = target.part(part.from, part.until);
@@ -90,7 +100,7 @@ impl<'a> Fitted<'a> {
             mine.iter().filter_map(|t| Some((misfit(recipe, &step.to, t)?, own(&t.trial.z)))).collect();
         known.sort_by(|a, b| a.0.total_cmp(&b.0));
         let known = known.into_iter().map(|k| k.1).collect();
-        Some(Fitted { recipe, step, emulators, feasible, known, inflation: 1.0 })
+        Some(Fitted { recipe, step, region: region.clone(), emulators, feasible, known, inflation: 1.0 })
     }
 
     /// Logarithm of the posterior's density, up to a constant.
@@ -103,8 +113,16 @@ impl<'a> Fitted<'a> {
 
     /// Samples of the posterior.
     pub fn samples(&self, seed: u64, length: Length) -> Samples {
-        let known = &self.known[..self.known.len().min(60)];
-        draw(&|z: &[f64]| self.log_density(z), self.step.fit.len(), known, seed, length)
+        let known: Vec<Vec<f64>> =
+            self.known.iter().filter_map(|z| self.region.cube(z)).take(MOST_KNOWN).collect();
+        let density = |cube: &[f64]| self.log_density(&self.region.at(cube));
+        let drawn = draw(&density, self.step.fit.len(), &known, seed, length);
+        let placed = |s: Sample| Sample { z: self.region.at(&s.z), log: s.log };
+        Samples {
+            list: drawn.list.into_iter().map(placed).collect(),
+            best: placed(drawn.best),
+            ratio: drawn.ratio,
+        }
     }
 
     /// Square of the misfit at a point, and the degrees of freedom that it should have.

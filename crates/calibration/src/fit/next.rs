@@ -4,6 +4,7 @@
 //! are weighted by them, and the deviation of each parameter is compared with what it is now, on average over 64 draws: the preposterior
 //! variance (Chaloner & Verdinelli 1995, doi:10.1214/ss/1177009939; by weights as in Huan & Marzouk 2013, doi:10.1016/j.jcp.2012.08.013).
 
+use super::belongs;
 use super::choice::normal;
 use crate::emulator::{Emulator, Lessons};
 use crate::recipe::Recipe;
@@ -69,9 +70,7 @@ pub fn next_tests(recipe: &Recipe, end: &StepEnd, tried: &[Tried]) -> Vec<Next> 
 /// An emulator of a test without data, on even points of the range that all its curves have.
 fn unmeasured(recipe: &Recipe, end: &StepEnd, tried: &[Tried], test: usize) -> Option<Emulator> {
     let (of, step) = (&recipe.tests[test], end.fitted.step);
-    let belongs = |t: &&Tried| {
-        (0..t.trial.z.len()).all(|k| step.fit.contains(&k) || (t.trial.z[k] - end.held[k]).abs() < 1e-9)
-    };
+    let belongs = |t: &&Tried| belongs(recipe, step, &end.held, &t.trial);
     let with: Vec<&Tried> = tried.iter().filter(belongs).filter(|t| !t.curves[test].is_empty()).collect();
     let curves = || with.iter().flat_map(|t| t.curves[test].iter());
     let first = curves().filter_map(|c| c.first()).map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);

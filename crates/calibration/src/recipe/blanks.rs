@@ -20,6 +20,11 @@ pub fn filled(text: &str, values: &[(&str, String)]) -> String {
     values.iter().fold(text.to_owned(), with)
 }
 
+/// Whether a name can be a blank.
+pub(super) fn is_word(name: &str) -> bool {
+    !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || "._-".contains(c))
+}
+
 /// The names of the blanks of a command; `${NAME}` and `{ …; }` belong to the shell.
 pub(super) fn names(text: &str) -> Vec<&str> {
     let mut names = Vec::new();
@@ -27,8 +32,7 @@ pub(super) fn names(text: &str) -> Vec<&str> {
     while let Some(start) = text[from..].find('{').map(|k| k + from) {
         let Some(end) = text[start..].find('}').map(|k| k + start) else { break };
         let name = &text[start + 1..end];
-        let word = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || "._-".contains(c));
-        let own = word && !text[..start].ends_with('$');
+        let own = is_word(name) && !text[..start].ends_with('$');
         names.extend(own.then_some(name));
         from = if own { end + 1 } else { start + 1 };
     }

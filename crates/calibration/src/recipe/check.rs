@@ -3,8 +3,8 @@
 use super::keys::{Number, ParameterKeys, PriorKeys, Scale, SettingsKeys};
 use super::parameter::{Parameter, Prior};
 use super::text::Text;
-use super::{Settings, blanks};
-use crate::error::Result;
+use super::{Settings, Test, blanks};
+use crate::error::{CalibrateError, Result};
 use crate::prior;
 use scene::materials::Range;
 use toml::Spanned;
@@ -74,8 +74,7 @@ pub(super) fn parameters(text: &Text, keys: &[Spanned<ParameterKeys>]) -> Result
     for key in keys {
         let name = key.get_ref().name.get_ref();
         let span = key.get_ref().name.span();
-        let word = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || "._-".contains(c));
-        if !word || OWN_BLANKS.contains(&name.as_str()) {
+        if !blanks::is_word(name) || OWN_BLANKS.contains(&name.as_str()) {
             let message = format!(
                 "name = \"{name}\": give a word of letters, digits, '.', '_' and '-', other than seed and here"
             );
@@ -89,6 +88,19 @@ pub(super) fn parameters(text: &Text, keys: &[Spanned<ParameterKeys>]) -> Result
         found.push(parameter(text, key)?);
     }
     Ok(found)
+}
+
+/// Refuses parameters that no command gets.
+pub(super) fn used(text: &Text, parameters: &[Parameter], tests: &[Test]) -> Result<()> {
+    let unused = |p: &&Parameter| !tests.iter().any(|t| blanks::names(&t.command).contains(&p.name.as_str()));
+    match parameters.iter().find(unused) {
+        None => Ok(()),
+        Some(p) => {
+            let message =
+                format!("parameter '{0}' changes nothing: no command has the blank {{{0}}}", p.name);
+            Err(CalibrateError::Recipe { place: text.place(None), message })
+        }
+    }
 }
 
 fn parameter(text: &Text, keys: &Spanned<ParameterKeys>) -> Result<Parameter> {

@@ -29,6 +29,7 @@ pub(super) struct SettingsKeys {
     pub failures: Option<Spanned<Number>>,
     pub timeout: Option<Spanned<Number>>,
     pub abandon: Option<Spanned<Number>>,
+    pub with: Option<Spanned<BTreeMap<String, Number>>>,
 }
 
 #[derive(Deserialize)]
@@ -72,6 +73,8 @@ pub(super) struct StepKeys {
     pub name: String,
     pub fit: Spanned<OneOrMany>,
     pub to: Option<Spanned<Vec<PartKeys>>>,
+    pub with: Option<Spanned<BTreeMap<String, Number>>>,
+    pub within: Option<Spanned<String>>,
     pub trials: Option<Spanned<i64>>,
     pub first: Option<Spanned<i64>>,
     pub batch: Option<Spanned<i64>>,

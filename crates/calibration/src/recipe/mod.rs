@@ -9,6 +9,7 @@ mod parameter;
 mod steps;
 mod tests_of;
 mod text;
+mod with;
 
 pub use blanks::{filled, shown};
 pub use keys::Pick;
@@ -119,7 +120,11 @@ pub fn read(path: &Path, data: &GivenData) -> Result<Recipe> {
     let here = here.canonicalize().map_err(crate::error::file(here, "cannot find the folder"))?;
     let settings = check::settings(&text, &keys.settings)?;
     let parameters = check::parameters(&text, &keys.parameter)?;
-    let (tests, warnings) = tests_of::tests(&text, &keys.test, &parameters, &settings, (&here, data))?;
-    let steps = steps::steps(&text, &keys, &parameters, &tests)?;
+    let with = with::names(&text, &keys, &parameters)?;
+    let blanks: Vec<&str> = parameters.iter().map(|p| p.name.as_str()).chain(with.iter().copied()).collect();
+    let (tests, warnings) = tests_of::tests(&text, &keys.test, &blanks, &settings, (&here, data))?;
+    check::used(&text, &parameters, &tests)?;
+    with::refuse_unused(&text, &keys, &tests)?;
+    let steps = steps::steps(&text, &keys, &parameters, (&tests, &with))?;
     Ok(Recipe { name, here, parameters, tests, steps, settings, warnings })
 }

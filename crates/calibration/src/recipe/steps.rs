@@ -3,8 +3,9 @@
 use super::check::whole;
 use super::keys::{PartKeys, RecipeKeys, StepKeys};
 use super::text::Text;
-use super::{Parameter, Test};
+use super::{Parameter, Test, with};
 use crate::error::{CalibrateError, Result, hint};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 
@@ -28,6 +29,10 @@ pub struct Step {
     pub fit: Vec<usize>,
     /// What they are fitted to.
     pub to: Vec<Part>,
+    /// What other blanks of the commands stand for.
+    pub with: BTreeMap<String, String>,
+    /// The earlier step that says where to look.
+    pub within: Option<usize>,
     /// Trials that it may take.
     pub trials: usize,
     /// Trials that fill the space, before the others.
@@ -43,7 +48,7 @@ pub(super) fn steps(
     text: &Text,
     keys: &RecipeKeys,
     parameters: &[Parameter],
-    tests: &[Test],
+    (tests, blanks): (&[Test], &[&str]),
 ) -> Result<Vec<Step>> {
     let measured = |test: usize| tests[test].target.is_some();
     let all_tests: Vec<Part> = (0..tests.len()).filter(|k| measured(*k)).map(whole_curve).collect();
@@ -53,12 +58,20 @@ pub(super) fn steps(
     }
     if keys.step.is_empty() {
         let fit = (0..parameters.len()).collect();
-        return Ok(vec![numbers(text, keys, None, "all".to_owned(), (fit, all_tests))?]);
+        let with = with::of_step(text, &keys.settings, None, tests.iter(), (blanks, 0..0))?;
+        let name = "all".to_owned();
+        let [trials, first, batch] = numbers(text, keys, None, (&name, parameters.len()))?;
+        return Ok(vec![Step { name, fit, to: all_tests, with, within: None, trials, first, batch }]);
     }
-    let step = |entry: &Spanned<StepKeys>| {
+    let step = |(k, entry): (usize, &Spanned<StepKeys>)| {
         let key = entry.get_ref();
+        let before = &keys.step[..k];
+        if before.iter().any(|b| b.get_ref().name == key.name) {
+            let message = format!("name = \"{}\": is there twice: give the steps different names", key.name);
+            return Err(text.refuse(&entry.span(), message));
+        }
         let fit = fit(text, key, parameters)?;
-        let to = match &key.to {
+        let to: Vec<Part> = match &key.to {
             None => all_tests.clone(),
             Some(parts) if parts.get_ref().is_empty() => {
                 return Err(text.refuse(&parts.span(), "to = []: name a test"));
@@ -67,27 +80,57 @@ pub(super) fn steps(
                 parts.get_ref().iter().map(|p| part(text, &parts.span(), p, tests)).collect::<Result<_>>()?
             }
         };
-        numbers(text, keys, Some(key), key.name.clone(), (fit, to))
+        // The last step also runs tests without data, for --design.
+        let last = k + 1 == keys.step.len();
+        let runs = tests
+            .iter()
+            .enumerate()
+            .filter(|(k, t)| to.iter().any(|p| p.test == *k) || last && t.target.is_none());
+        let place = (blanks, entry.span());
+        let with = with::of_step(text, &keys.settings, Some(key), runs.map(|(_, t)| t), place)?;
+        let within = key.within.as_ref().map(|name| within(text, name, before)).transpose()?;
+        let name = key.name.clone();
+        let [trials, first, batch] = numbers(text, keys, Some(key), (&name, fit.len()))?;
+        Ok(Step { name, fit, to, with, within, trials, first, batch })
     };
-    keys.step.iter().map(step).collect()
+    let steps: Vec<Step> = keys.step.iter().enumerate().map(step).collect::<Result<_>>()?;
+    for (k, step) in steps.iter().enumerate() {
+        let earlier = step.within.map(|w| &steps[w]);
+        if earlier.is_some_and(|e| e.fit.iter().all(|p| !step.fit.contains(p))) {
+            let span = keys.step[k].get_ref().within.as_ref().map_or(0..0, Spanned::span);
+            return Err(
+                text.refuse(&span, "within: changes nothing: that step fits none of these parameters")
+            );
+        }
+    }
+    Ok(steps)
 }
 
 fn whole_curve(test: usize) -> Part {
     Part { test, from: f64::NEG_INFINITY, until: f64::INFINITY }
 }
 
+/// The step of a name among those before.
+fn within(text: &Text, name: &Spanned<String>, before: &[Spanned<StepKeys>]) -> Result<usize> {
+    let known = before.iter().map(|b| b.get_ref().name.as_str());
+    known.clone().position(|k| k == name.get_ref()).ok_or_else(|| {
+        let hint = hint(name.get_ref(), known);
+        text.refuse(&name.span(), format!("within: no step '{}' comes before{hint}", name.get_ref()))
+    })
+}
+
+/// Trials, first trials and batch of a step, by its name and number of parameters.
 fn numbers(
     text: &Text,
     keys: &RecipeKeys,
     own: Option<&StepKeys>,
-    name: String,
-    of: (Vec<usize>, Vec<Part>),
-) -> Result<Step> {
+    (name, parameters): (&str, usize),
+) -> Result<[usize; 3]> {
     let settings = &keys.settings;
     let key = |own: Option<&Option<Spanned<i64>>>, all: &Option<Spanned<i64>>| {
         own.and_then(Option::as_ref).or(all.as_ref()).map(|s| Spanned::new(s.span(), *s.get_ref()))
     };
-    let n = of.0.len() as u64;
+    let n = parameters as u64;
     let trials = whole(text, "trials", &key(own.map(|o| &o.trials), &settings.trials), 30 * n, [3, MOST])?;
     let default = (10 * n).min(trials);
     let first = whole(text, "first", &key(own.map(|o| &o.first), &settings.first), default, [3, MOST])?;
@@ -104,14 +147,7 @@ fn numbers(
         );
         return Err(text.refuse(&span, message));
     }
-    Ok(Step {
-        name,
-        fit: of.0,
-        to: of.1,
-        trials: trials as usize,
-        first: first as usize,
-        batch: batch as usize,
-    })
+    Ok([trials, first, batch].map(|n| n as usize))
 }
 
 fn fit(text: &Text, key: &StepKeys, parameters: &[Parameter]) -> Result<Vec<usize>> {

@@ -4,18 +4,18 @@ use super::blanks::{self, shown};
 use super::check::{OWN_BLANKS, number, whole};
 use super::keys::{Number, TestKeys};
 use super::text::Text;
-use super::{GivenData, Parameter, Settings, Test};
+use super::{GivenData, Settings, Test};
 use crate::error::{CalibrateError, Result, hint};
 use crate::target::{Asked, Units, curve, value};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
-/// The tests, and warnings.
+/// The tests, and warnings; `blanks` are those that something fills.
 pub(super) fn tests(
     text: &Text,
     keys: &[Spanned<TestKeys>],
-    parameters: &[Parameter],
+    blanks: &[&str],
     settings: &Settings,
     files: (&Path, &GivenData),
 ) -> Result<(Vec<Test>, Vec<String>)> {
@@ -49,16 +49,9 @@ pub(super) fn tests(
             }
         };
         if let Some(own) = &key.command {
-            blanks_are_known(text, own, parameters)?;
+            blanks_are_known(text, own, blanks)?;
         }
         tests.push(test(text, (key, command), (files.0, given.get(&k).map(Vec::as_slice)), &mut warnings)?);
-    }
-    for p in parameters {
-        if !tests.iter().any(|t| blanks::names(&t.command).contains(&p.name.as_str())) {
-            let message =
-                format!("parameter '{0}' changes nothing: no command has the blank {{{0}}}", p.name);
-            return Err(CalibrateError::Recipe { place: text.place(None), message });
-        }
     }
     if settings.seeds > 1 && !tests.iter().any(Test::is_random) {
         let message =
@@ -100,14 +93,14 @@ fn given(data: &GivenData, keys: &[Spanned<TestKeys>]) -> Result<BTreeMap<usize,
     Ok(found)
 }
 
-fn blanks_are_known(text: &Text, key: &Spanned<String>, parameters: &[Parameter]) -> Result<()> {
+fn blanks_are_known(text: &Text, key: &Spanned<String>, blanks: &[&str]) -> Result<()> {
     let command = key.get_ref();
     if command.trim().is_empty() || command.contains('\0') {
         return Err(
             text.refuse(&key.span(), "command: is empty: give a shell line that prints a number or a table")
         );
     }
-    let known = || parameters.iter().map(|p| p.name.as_str()).chain(OWN_BLANKS);
+    let known = || blanks.iter().copied().chain(OWN_BLANKS);
     match blanks::names(command).into_iter().find(|name| !known().any(|k| k == *name)) {
         None => Ok(()),
         Some(name) => {

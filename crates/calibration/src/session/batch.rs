@@ -1,106 +1,49 @@
 //! A batch: its runs, their results, and what they cost.
 
 use super::proposal::Proposal;
-use super::{Session, Status, Tried, duration, seconds, table};
+use super::work::Work;
+use super::{Session, Status, Tried, seconds, table};
 use crate::error::{CalibrateError, Result};
 use crate::fit::{misfit, part_misfit};
 use crate::recipe::Step;
 use crate::trial::output::{Outcome, on_grid, outcome};
 use crate::trial::pool::Pool;
-use crate::trial::run::{Ended, Hashes, is_done};
+use crate::trial::run::{Ended, is_done};
 use crate::trial::{self, Run, Trial};
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Runs that are measured before the rate is printed.
-const MEASURED: usize = 4;
 /// Failures without any success that end a calibration at once.
 const HOPELESS: usize = 3;
-/// Trials that are all this many times as large as the data have other units.
-const OTHER_UNITS: f64 = 100.0;
-
-/// What goes on between batches.
-pub(super) struct Work {
-    hashes: Hashes,
-    /// Jobs to be run by others.
-    pub open: Vec<PathBuf>,
-    since: u64,
-    total: usize,
-    /// Runs that are done, and of this process: number, failures and time [s].
-    count: Mutex<Count>,
-}
-
-#[derive(Default)]
-struct Count {
-    done: usize,
-    own: usize,
-    failed: usize,
-    seconds: f64,
-    told: bool,
-}
-
-impl Work {
-    pub fn new(session: &Session, since: u64) -> Work {
-        let trials: usize = session.recipe.steps.iter().map(|s| s.trials).sum();
-        let each: usize = session.commands().iter().map(|tests| session.runs_of(tests[0])).sum();
-        Work {
-            hashes: Hashes::default(),
-            open: Vec::new(),
-            since,
-            total: trials * each,
-            count: Mutex::default(),
-        }
-    }
-
-    /// Refuses units that cannot be those of the data.
-    pub fn check_sizes(&self, session: &Session, step: &Step, tried: &[Tried]) -> Result<()> {
-        for part in &step.to {
-            let test = &session.recipe.tests[part.test];
-            let Some(target) = &test.target else { continue };
-            let sizes: Vec<f64> = tried
-                .iter()
-                .filter_map(|t| t.outputs[part.test].as_ref())
-                .map(|o| o.iter().fold(0.0, |a: f64, v| a.max(v.abs())))
-                .collect();
-            let ratio = |s: &f64| s / target.size();
-            let small = sizes.iter().map(ratio).fold(f64::INFINITY, f64::min);
-            let large = sizes.iter().map(ratio).fold(0.0, f64::max);
-            if sizes.is_empty() || large > 1.0 / OTHER_UNITS && small < OTHER_UNITS {
-                continue;
-            }
-            let message = format!(
-                "its trials are {} to {} times as large as the data: are the units the same? Name them: y_unit is that of the command, 'column [kPa]' that of the data",
-                geom::Shown(small),
-                geom::Shown(large)
-            );
-            return Err(CalibrateError::Test { test: test.name.clone(), message });
-        }
-        Ok(())
-    }
-}
 
 impl Session<'_> {
-    /// Tests that are simulated.
-    pub(super) fn tests(&self) -> impl Iterator<Item = usize> {
-        (0..self.recipe.tests.len()).filter(|&t| self.candidates || self.recipe.tests[t].target.is_some())
-    }
-
-    /// The tests that are simulated, those with the same command together.
-    fn commands(&self) -> Vec<Vec<usize>> {
+    /// The tests that a step runs: those that it fits to, and in the last step those that `--design` may propose. Tests with the same command stand
+    /// together: what one of them runs tells of all.
+    fn commands(&self, step: usize) -> Vec<Vec<usize>> {
+        let last = step + 1 == self.recipe.steps.len();
+        let to = &self.recipe.steps[step].to;
+        let asked = |test: usize| {
+            to.iter().any(|part| part.test == test)
+                || last && self.candidates && self.recipe.tests[test].target.is_none()
+        };
         let mut groups: Vec<Vec<usize>> = Vec::new();
-        for test in self.tests() {
+        for test in 0..self.recipe.tests.len() {
             let first = self.recipe.first_with_command_of(test);
             match groups.iter_mut().find(|g| self.recipe.first_with_command_of(g[0]) == first) {
                 Some(group) => group.push(test),
                 None => groups.push(vec![test]),
             }
         }
+        groups.retain(|group| group.iter().any(|test| asked(*test)));
         groups
     }
 
-    fn runs_of(&self, test: usize) -> usize {
-        if self.recipe.tests[test].is_random() { self.recipe.settings.seeds as usize } else { 1 }
+    /// Runs of a trial of a step, at most.
+    pub(super) fn runs_of_trial(&self, step: usize) -> usize {
+        let runs = |test: usize| {
+            if self.recipe.tests[test].is_random() { self.recipe.settings.seeds as usize } else { 1 }
+        };
+        self.commands(step).iter().map(|tests| runs(tests[0])).sum()
     }
 
     /// Makes the trials of a proposal; false: jobs are open.
@@ -129,10 +72,14 @@ impl Session<'_> {
             misfit: None,
         };
         let mut new: Vec<Tried> = proposal.points.iter().enumerate().map(trial).map(empty).collect();
-        let best =
-            tried.iter().filter_map(|t| misfit(self.recipe, &step.to, t)).fold(f64::INFINITY, f64::min);
+        let alike = |t: &&Tried| self.recipe.steps[t.trial.step].with == step.with;
+        let best = tried
+            .iter()
+            .filter(alike)
+            .filter_map(|t| misfit(self.recipe, &step.to, t))
+            .fold(f64::INFINITY, f64::min);
         // After the first batch, commands run one after the other, so that hopeless trials are seen early.
-        let commands = self.commands();
+        let commands = self.commands(of.0);
         let phases =
             if of.1 == 0 || self.recipe.settings.abandon == 0.0 { vec![commands.concat()] } else { commands };
         for (k, tests) in phases.iter().enumerate() {
@@ -187,28 +134,22 @@ impl Session<'_> {
 
     fn work_off(&self, runs: &[Run], work: &Work, step: &str) -> Result<()> {
         let open: Vec<Run> = runs.iter().filter(|r| !is_done(&r.file, &r.job, work.since)).cloned().collect();
-        let lock = || work.count.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        lock().done += runs.len() - open.len();
-        self.watch.progress(lock().done, work.total, step);
+        let (done, total) = work.found(runs.len() - open.len());
+        self.watch.progress(done, total, step);
         let give_up = AtomicBool::new(false);
         let ended = |_: &Run, ended: &Ended| {
-            let mut count = lock();
-            count.done += 1;
-            count.own += 1;
-            count.seconds += ended.seconds;
-            count.failed += usize::from(!ended.is_final());
-            self.watch.progress(count.done, work.total, step);
-            if count.failed == count.own && count.own >= HOPELESS && count.done == count.own {
-                give_up.store(true, std::sync::atomic::Ordering::SeqCst);
+            let now = work.ended(ended, self.jobs);
+            self.watch.progress(now.done, total, step);
+            if now.all_failed && now.done >= HOPELESS {
+                give_up.store(true, Ordering::SeqCst);
             }
-            if !count.told && count.own >= MEASURED.max(2 * self.jobs) {
-                count.told = true;
-                self.watch.tell(&rate(&count, work.total, self.jobs));
+            if let Some(rate) = now.rate {
+                self.watch.tell(&rate);
             }
         };
         Pool { jobs: self.jobs, stop: self.stop, since: work.since, ended: &ended, give_up: &give_up }
             .run(&open)?;
-        if give_up.load(std::sync::atomic::Ordering::SeqCst) {
+        if give_up.load(Ordering::SeqCst) {
             let failed = runs.iter().find_map(|r| match outcome(r, &self.recipe.tests[r.test]) {
                 Outcome::Failed(why) if why != "it has no result" => Some((r, why)),
                 _ => None,
@@ -292,14 +233,4 @@ fn note(tried: &mut Tried, status: Status, why: String) {
 fn mean(values: &[Vec<f64>]) -> Vec<f64> {
     let n = values.len() as f64;
     (0..values[0].len()).map(|k| values.iter().map(|v| v[k]).sum::<f64>() / n).collect()
-}
-
-fn rate(count: &Count, total: usize, jobs: usize) -> String {
-    let each = count.seconds / count.own as f64;
-    let left = total.saturating_sub(count.done);
-    let time = duration(left as f64 * each / jobs as f64);
-    format!(
-        "measured: {} a run, {jobs} at the same time; at most {left} runs are left: {time}",
-        duration(each)
-    )
 }

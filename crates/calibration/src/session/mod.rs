@@ -6,13 +6,14 @@
 mod batch;
 mod proposal;
 mod record;
+mod work;
 
 pub(crate) use record::cell;
 pub use record::{Status, Tried, table};
 
 use crate::error::{CalibrateError, Result};
 use crate::fit::sample::Length;
-use crate::fit::{Fitted, choice, sample::Samples};
+use crate::fit::{Fitted, choice, region::Region, sample::Samples};
 use crate::recipe::{Recipe, Step};
 use crate::trial::{run, run::Ended};
 use proposal::Proposal;
@@ -88,12 +89,15 @@ impl<'a> Session<'a> {
             .map_err(crate::error::file(&self.dir, "cannot create the folder"))?;
         [self.dir.clone(), self.dir.join("batches")].iter().for_each(|f| crate::trial::lock::clear_files(f));
         let recipe: &'a Recipe = self.recipe;
-        let mut work = batch::Work::new(self, run::now());
+        let mut work = work::Work::new(self, run::now());
         let (mut tried, mut ends): (Vec<Tried>, Vec<StepEnd>) = (Vec::new(), Vec::new());
         let mut held: Vec<f64> =
             recipe.parameters.iter().map(|p| p.coordinate(p.start).clamp(0.0, 1.0)).collect();
         for (k, step) in recipe.steps.iter().enumerate() {
-            let Some(mut end) = self.step((k, step), &mut tried, &held, &mut work)? else {
+            let left = |w: usize| Region::left_by(&ends[w].samples, &ends[w].fitted.step.fit, &step.fit);
+            let region = step.within.map_or_else(|| Region::whole(step.fit.len()), left);
+            work.begin(k);
+            let Some(mut end) = self.step((k, step), &mut tried, (&held, &region), &mut work)? else {
                 return Ok(Standing::Open(work.open));
             };
             let best = end.samples.best.z.clone();
@@ -126,8 +130,8 @@ impl<'a> Session<'a> {
         &self,
         of: (usize, &'a Step),
         tried: &mut Vec<Tried>,
-        held: &[f64],
-        work: &mut batch::Work,
+        (held, region): (&[f64], &Region),
+        work: &mut work::Work,
     ) -> Result<Option<StepEnd<'a>>> {
         let (k, step) = of;
         let (mut batch, mut trials, mut certain) = (0, 0, 0);
@@ -135,7 +139,8 @@ impl<'a> Session<'a> {
         let mut widths = Vec::new();
         loop {
             let count = if batch == 0 { step.first } else { step.batch.min(step.trials - trials) };
-            let fitted = if batch == 0 { None } else { Some(self.learn(step, tried, held, &logs)?) };
+            let fitted =
+                if batch == 0 { None } else { Some(self.learn(step, tried, (held, region), &logs)?) };
             let samples = fitted.as_ref().map(|f| f.samples(self.seed(k, batch), choice::SHORT));
             if let (Some(fitted), Some(samples)) = (fitted, samples) {
                 logs = fitted.logs();
@@ -145,7 +150,7 @@ impl<'a> Session<'a> {
                     return Ok(Some(StepEnd { fitted, samples, trials, early, widths, held: held.to_vec() }));
                 }
                 let make = || self.propose(&fitted, &samples, (k, batch, trials, count));
-                let proposal = Proposal::kept(self, (k, batch), tried, held, make)?;
+                let proposal = Proposal::kept(self, (k, batch), tried, (held, region), make)?;
                 certain = if proposal.certain { certain + 1 } else { 0 };
                 if !self.try_all(&proposal, (k, batch), (tried, held), work)? {
                     return Ok(None);
@@ -153,10 +158,10 @@ impl<'a> Session<'a> {
                 trials += proposal.points.len();
             } else {
                 let make = || Proposal {
-                    points: choice::even(step.fit.len(), self.seed(k, 0), 0, count),
+                    points: choice::even(region, step.fit.len(), self.seed(k, 0), 0, count),
                     certain: false,
                 };
-                let proposal = Proposal::kept(self, (k, 0), tried, held, make)?;
+                let proposal = Proposal::kept(self, (k, 0), tried, (held, region), make)?;
                 if !self.try_all(&proposal, (k, 0), (tried, held), work)? {
                     return Ok(None);
                 }
@@ -175,10 +180,10 @@ impl<'a> Session<'a> {
         &self,
         step: &'a Step,
         tried: &[Tried],
-        held: &[f64],
+        place: (&[f64], &Region),
         logs: &[Vec<crate::emulator::Logs>],
     ) -> Result<Fitted<'a>> {
-        Fitted::learn(self.recipe, step, tried, held, logs).ok_or_else(|| {
+        Fitted::learn(self.recipe, step, tried, place, logs).ok_or_else(|| {
             let of = |s: Status| tried.iter().filter(|t| t.status == s).count();
             let first = tried.iter().find_map(|t| t.why.as_deref());
             let first = first.map_or(String::new(), |why| format!("; the first: {why}"));

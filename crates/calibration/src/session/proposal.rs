@@ -2,6 +2,7 @@
 
 use super::{Session, Tried};
 use crate::error::{CalibrateError, Result};
+use crate::fit::region::Region;
 use crate::trial::replace;
 use serde::{Deserialize, Serialize};
 
@@ -32,11 +33,11 @@ impl Proposal {
         session: &Session,
         of: (usize, usize),
         tried: &[Tried],
-        held: &[f64],
+        place: (&[f64], &Region),
         make: impl FnOnce() -> Proposal,
     ) -> Result<Proposal> {
         let path = session.dir.join("batches").join(format!("step-{}-batch-{:03}.json", of.0 + 1, of.1));
-        let stamp = stamp(session, of, tried, held);
+        let stamp = stamp(session, of, tried, place);
         let read = || {
             let text = std::fs::read_to_string(&path).ok()?;
             serde_json::from_str::<Kept>(&text).ok().filter(|k| k.stamp == stamp)
@@ -54,7 +55,12 @@ impl Proposal {
 }
 
 /// What a proposal follows from.
-fn stamp(session: &Session, of: (usize, usize), tried: &[Tried], held: &[f64]) -> String {
+fn stamp(
+    session: &Session,
+    of: (usize, usize),
+    tried: &[Tried],
+    (held, region): (&[f64], &Region),
+) -> String {
     let (recipe, step) = (session.recipe, &session.recipe.steps[of.0]);
     let mut text = format!(
         "{} {of:?} {:?} {:?} {}\n",
@@ -78,5 +84,5 @@ fn stamp(session: &Session, of: (usize, usize), tried: &[Tried], held: &[f64]) -
     for p in &recipe.parameters {
         text += &format!("{} {} {} {} {:?}\n", p.name, p.low, p.high, p.log, p.prior);
     }
-    stream::sha256(format!("{text}{held:?}").as_bytes())
+    stream::sha256(format!("{text}{held:?}{region:?}{:?}", step.with).as_bytes())
 }

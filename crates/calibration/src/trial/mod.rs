@@ -60,6 +60,8 @@ pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize, hashes: &mu
         let mut blanks: Vec<(&str, String)> =
             recipe.parameters.iter().map(|p| p.name.as_str()).zip(values.iter().cloned()).collect();
         blanks.push(("seed", seed.to_string()));
+        blanks
+            .extend(recipe.steps[trial.step].with.iter().map(|(name, value)| (name.as_str(), value.clone())));
         let movable = filled(&of.command, &blanks);
         let command = filled(&movable, &[("here", stream::quoted(&recipe.here.display().to_string()))]);
         let name = if of.is_random() { format!("{}-{seed}", slug(&of.name)) } else { slug(&of.name) };
@@ -87,7 +89,7 @@ pub fn write(recipe: &Recipe, dir: &Path, trial: &Trial, runs: &[Run]) -> Result
     lock::clear_files(&folder);
     let values: serde_json::Map<String, serde_json::Value> =
         recipe.parameters.iter().zip(&trial.z).map(|(p, z)| (p.name.clone(), p.value(*z).into())).collect();
-    let about = serde_json::json!({ "trial": trial.number, "step": recipe.steps[trial.step].name, "batch": trial.batch, "parameters": values });
+    let about = serde_json::json!({ "trial": trial.number, "step": recipe.steps[trial.step].name, "batch": trial.batch, "parameters": values, "with": recipe.steps[trial.step].with });
     replace(&folder.join("trial.json"), pretty(&about).as_bytes())?;
     for run in runs {
         let job = serde_json::to_value(&run.job).map_err(|e| CalibrateError::Failed(e.to_string()))?;

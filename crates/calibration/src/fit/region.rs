@@ -1,0 +1,79 @@
+//! The box of coordinates that a step looks at: all of it, or what an earlier step has left.
+
+use super::sample::Samples;
+
+/// Share of the samples of the earlier step outside of the box, at each end.
+const TAIL: f64 = 0.005;
+/// Room on each side, over the width of what is left: the earlier step may have had other specimens.
+const ROOM: f64 = 0.5;
+/// Least width [–].
+const LEAST: f64 = 0.1;
+/// An interval that comes this close to an end reaches it, over the width.
+const NEAR: f64 = 0.03;
+/// Digits of its ends.
+const DIGITS: f64 = 1e4;
+
+/// Lower and upper end of each fitted parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Region(Vec<[f64; 2]>);
+
+impl Region {
+    /// All of `d` coordinates.
+    pub fn whole(d: usize) -> Region {
+        Region(vec![[0.0, 1.0]; d])
+    }
+
+    /// What samples of an earlier step have left, for the parameters `fit`; `earlier` are those of the samples.
+    pub fn left_by(samples: &Samples, earlier: &[usize], fit: &[usize]) -> Region {
+        let end = |p: &usize| {
+            let Some(at) = earlier.iter().position(|e| e == p) else { return [0.0, 1.0] };
+            let mut values: Vec<f64> = samples.list.iter().map(|s| s.z[at]).collect();
+            values.sort_by(f64::total_cmp);
+            let quantile = |share: f64| values[(share * (values.len() - 1) as f64).round() as usize];
+            let (low, high) = (quantile(TAIL), quantile(1.0 - TAIL));
+            let room = (ROOM * (high - low)).max(0.5 * (LEAST - (high - low)));
+            let digits = |z: f64| (z.clamp(0.0, 1.0) * DIGITS).round() / DIGITS;
+            [digits(low - room), digits(high + room)]
+        };
+        Region(fit.iter().map(end).collect())
+    }
+
+    /// The coordinates of a point of the unit cube.
+    pub fn at(&self, cube: &[f64]) -> Vec<f64> {
+        self.0.iter().zip(cube).map(|([low, high], u)| low + u * (high - low)).collect()
+    }
+
+    /// The point of the unit cube with these coordinates, if it lies in it.
+    pub fn cube(&self, z: &[f64]) -> Option<Vec<f64>> {
+        let of =
+            |([low, high], z): (&[f64; 2], &f64)| (z >= low && z <= high).then(|| (z - low) / (high - low));
+        self.0.iter().zip(z).map(of).collect()
+    }
+
+    /// Whether an interval of a parameter reaches an end that is not one of its bounds.
+    pub fn cuts(&self, at: usize, interval: [f64; 2]) -> bool {
+        let [low, high] = self.0[at];
+        let near = NEAR * (high - low);
+        low > 0.0 && interval[0] < low + near || high < 1.0 && interval[1] > high - near
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample::Sample;
+    use super::*;
+
+    #[test]
+    fn a_region_has_room_around_what_is_left() {
+        let sample = |k: u32| Sample { z: vec![0.4 + 0.2 * f64::from(k) / 1000.0, 0.95], log: 0.0 };
+        let list: Vec<Sample> = (0..=1000).map(sample).collect();
+        let samples = Samples { best: list[0].clone(), list, ratio: 1.0 };
+        let region = Region::left_by(&samples, &[3, 5], &[3, 4, 5]);
+        assert_eq!(region, Region(vec![[0.302, 0.698], [0.0, 1.0], [0.9, 1.0]]));
+        assert_eq!(region.at(&[0.5, 0.5, 0.5]), [0.5, 0.5, 0.95]);
+        assert!((region.cube(&[0.5, 0.25, 0.95]).unwrap()[2] - 0.5).abs() < 1e-12);
+        assert_eq!(region.cube(&[0.2, 0.25, 0.95]), None);
+        assert!(region.cuts(0, [0.303, 0.5]) && !region.cuts(0, [0.32, 0.5]) && region.cuts(0, [0.4, 0.69]));
+        assert!(!region.cuts(1, [0.0, 1.0]) && !region.cuts(2, [0.95, 1.0]));
+    }
+}
