@@ -134,3 +134,32 @@ fn a_run_that_fills_the_disk_is_kept_and_goes_on_elsewhere() {
         0.0,
     );
 }
+
+#[test]
+fn a_calibration_that_fills_the_disk_goes_on_elsewhere_to_the_same_end() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let recipe = "[settings]\ntrials = 12\nfirst = 8\n[[parameter]]\nname = \"mu\"\nbounds = [0.1, 0.9]\n\
+        [[test]]\nname = \"angle\"\ncommand = \"awk 'BEGIN { print 20 + 10 * {mu} + 0.01 * {seed} }'\"\nvalue = 25\ndeviation = 0.5\n";
+    fs::write(folder.join("recipe.toml"), recipe).expect("a file");
+    let calibrate = |dir: &str, out: &str| {
+        tool(folder, "calibrate", &["recipe.toml", "-q", "--jobs", "1", "--dir", dir, "-o", out])
+    };
+    assert_eq!(calibrate("whole", "whole.csv").code, 0);
+    let Some(disk) = Disk::new(folder, "160k") else { return };
+    let done = calibrate("disk/trials", "found.csv");
+    assert!(said(&done, "calibrate"));
+    KEPT.refused("a calibration on a disk of 160 kB", &done.stderr, &["is the disk full?", "disk/trials/"]);
+    assert!(!folder.join("found.csv").exists());
+    let kept = Command::new("cp").args(["-r", "disk/trials", "rest"]).current_dir(folder).status();
+    assert!(kept.is_ok_and(|s| s.success()) && disk.0.join("trials/trials/0001/trial.json").exists());
+    assert_eq!(calibrate("rest", "rest.csv").code, 0);
+    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("whole");
+    let differs = read("rest.csv") != read("whole.csv");
+    KEPT.within(
+        "what a calibration found, against an undisturbed one",
+        f64::from(u8::from(differs)),
+        "tables",
+        0.0,
+    );
+}
