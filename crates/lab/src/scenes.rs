@@ -47,6 +47,11 @@ impl Lab {
         if let Some(friction) = self.request.friction.or(self.recipe.friction()) {
             scene.entries("contact").for_each(|contact| walls::set_friction(contact, friction));
         }
+        if !self.sample.has("local_damping") {
+            scene
+                .entries("contact")
+                .for_each(|contact| walls::raise_restitution(contact, self.recipe.restitution()));
+        }
         self.finish(of, part, scene)
     }
 

@@ -60,6 +60,14 @@ pub(crate) fn set_friction(contact: &mut Table, friction: f64) {
     }
 }
 
+/// Raises the restitution of a `[[contact]]` to a least value; one with a dashpot of its own keeps it.
+pub(crate) fn raise_restitution(contact: &mut Table, least: f64) {
+    let own = contact.get("restitution").and_then(|r| r.as_float().or(r.as_integer().map(|i| i as f64)));
+    if own.is_some_and(|own| own < least) {
+        contact.insert("restitution", toml_edit::value(least));
+    }
+}
+
 /// The keys of a table, one in a line, without comments.
 fn plain(table: &Table) -> String {
     let line = |(key, item): (&str, &Item)| {

@@ -153,6 +153,12 @@ pub trait Recipe: Sync {
         None
     }
 
+    /// Least restitution during the preparation, if the local damping is that of the test [–]: a lower one shortens the time step, and the local damping
+    /// stops the grains.
+    fn restitution(&self) -> f64 {
+        0.0
+    }
+
     /// Mean unbalanced over mean contact force of a prepared specimen where the user gives none [–].
     fn rest(&self) -> f64 {
         1e-4
