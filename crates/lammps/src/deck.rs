@@ -14,7 +14,7 @@ use run::Schedule;
 use scene::Scene;
 use std::fmt::Write as _;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufReader, BufWriter, Read, Write};
 use std::path::Path;
 
 /// Names of the files of a deck.
@@ -25,6 +25,10 @@ pub const FRAMES: &str = "frames.dump";
 /// The file that samples near outlets go to, unless a variable says otherwise.
 pub const ZONE: &str = "zone.dump";
 const BATCH: &str = "batch.sh";
+/// The files that LAMMPS keeps its state in, in turn.
+pub const STATES: [&str; 2] = ["state_1", "state_2"];
+/// States of a run, where the scene has no `output.checkpoint`.
+const KEPT: f64 = 20.0;
 
 /// Columns of a dump.
 pub const COLUMNS: &str = "id x y z vx vy vz omegax omegay omegaz";
@@ -106,11 +110,25 @@ impl Deck {
             walls,
             free,
             outlet::commands(setup),
-            tail(from.schedule),
+            tail(scene, from.schedule),
         ]
         .concat();
         let free = arrivals.iter().map(|a| (a.id, a.free)).collect();
         Ok(Deck { input, batch: batch::slurm(&scene.text.name, from.ranks), bent, types, free })
+    }
+
+    /// Whether a folder holds this deck.
+    ///
+    /// # Errors
+    /// Files that cannot be read.
+    pub fn is_in(&self, setup: &Setup, folder: &Path) -> std::io::Result<bool> {
+        let input = folder.join(INPUT);
+        if !input.exists() || std::fs::read(&input)? != self.input.as_bytes() {
+            return Ok(false);
+        }
+        let mut data = Same::new(BufReader::new(File::open(folder.join(DATA))?));
+        data::write(setup, &self.types, &self.free, &mut data)?;
+        data.ends()
     }
 
     /// Writes the deck into a folder, which is made where it is missing.
@@ -130,6 +148,35 @@ impl Deck {
     }
 }
 
+/// What is written, compared with a file.
+struct Same<R> {
+    file: R,
+    equal: bool,
+}
+
+impl<R: Read> Same<R> {
+    fn new(file: R) -> Same<R> {
+        Same { file, equal: true }
+    }
+
+    /// Whether the file was all that was written.
+    fn ends(mut self) -> std::io::Result<bool> {
+        Ok(self.equal && self.file.read(&mut [0])? == 0)
+    }
+}
+
+impl<R: Read> Write for Same<R> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let mut there = vec![0; bytes.len()];
+        self.equal = self.equal && self.file.read_exact(&mut there).is_ok() && there == bytes;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
 /// Particles that LAMMPS cannot number, or none.
 fn particles(setup: &Setup) -> Option<Refusal> {
     let highest = data::highest_number(setup);
@@ -145,15 +192,22 @@ fn head(Source { scene, setup, schedule, arrivals, .. }: &Source) -> String {
     let [x, y, z] = [0, 1, 2].map(|axis| edge(&setup.periodic[axis]));
     let name = Path::new(&scene.text.name).file_name().unwrap_or_default().to_string_lossy().into_owned();
     let smallest = setup.particles.iter().map(|p| p.radius).fold(f64::INFINITY, f64::min);
-    let read = match arrivals.is_empty() {
-        true => format!("read_data {DATA}"),
-        false => format!("fix free all property/atom d_free\nread_data {DATA} fix free NULL Free"),
+    // A property has to be there before the data are read, and after a state is.
+    let free = "\"fix free all property/atom d_free\"";
+    let [fresh, resumed] = match arrivals.is_empty() {
+        true => [format!("\"read_data {DATA}\""), "\"read_restart ${state}\"".to_owned()],
+        false => [
+            format!("{free} \"read_data {DATA} fix free NULL Free\""),
+            format!("\"read_restart ${{state}}\" {free}"),
+        ],
     };
     let skin = setup.skin.unwrap_or(0.4 * smallest);
     format!(
         "# {name}, written by dem-lammps: SI units; forces are sampled at instants.\n\
          units si\natom_style sphere\nboundary {x} {y} {z}\nnewton off\ncomm_modify vel yes\n\
-         {read}\nneighbor {skin:?} bin\nneigh_modify delay 0 every 1 check yes\ntimestep {:?}\n\
+         variable state index none # or a state that was kept, to go on from it\n\
+         if \"${{state}} == none\" then {fresh} \"variable first index yes\" else {resumed} \"variable first index no\"\n\
+         neighbor {skin:?} bin\nneigh_modify delay 0 every 1 check yes\ntimestep {:?}\n\
          variable t equal step*dt\n\n# contacts: overlap, dashpot, friction\npair_style granular\n",
         schedule.dt
     )
@@ -222,15 +276,20 @@ fn motion(Source { setup, arrivals, target, .. }: &Source) -> String {
 }
 
 /// Output and the run: frame k is at the step nearest to k × `every`, the last step is one.
-fn tail(schedule: &Schedule) -> String {
+fn tail(scene: &Scene, schedule: &Schedule) -> String {
     let Schedule { dt, last, every, .. } = schedule;
     let report = (last / 200).max(1);
+    let keep = scene.keys.output.checkpoint.map_or(*last as f64 / KEPT, |s| s / dt).clamp(1.0, *last as f64);
+    let (keep, [a, b]) = (keep.round(), STATES);
     format!(
         "\n# frames\nvariable frames index {FRAMES}\n\
          variable due equal \"round((round(step*{dt:?}/{every:?})+1)*{every:?}/{dt:?})\"\n\
          variable next equal \"(v_due<{last} || step>={last})*v_due+(v_due>={last} && step<{last})*{last}\"\n\
          dump frames grains custom 1 ${{frames}} {COLUMNS}\n\
-         dump_modify frames every v_next first yes flush yes format float %.17g\n\
-         thermo {report}\nthermo_style custom step ke\nthermo_modify lost error flush yes\nrun {last}\n"
+         dump_modify frames every v_next first ${{first}} flush yes format float %.17g\n\
+         thermo {report}\nthermo_style custom step ke\nthermo_modify lost error flush yes\n\
+         # states, in turn: lmp -in run.in -var state {a} -var frames frames-2.dump goes on from one\n\
+         variable keep index {keep}\nif \"${{state}} == {a}\" then \"variable states string '{b} {a}'\" else \"variable states string '{a} {b}'\"\n\
+         if \"${{keep}} > 0\" then \"restart ${{keep}} ${{states}}\"\nrun {last} upto\n"
     )
 }

@@ -5,6 +5,7 @@
 //! ```
 
 use crate::deck::COLUMNS;
+use std::collections::VecDeque;
 use std::io::{self, BufRead};
 
 /// Numbers of an atom after its id.
@@ -19,8 +20,66 @@ pub struct Frame {
     pub atoms: Vec<(u64, [f64; NUMBERS])>,
 }
 
-/// Reads frames.
-pub struct Frames<R> {
+/// Parts of a dump: what LAMMPS wrote after its first start, after its second …
+pub type Parts<'a> = Vec<Box<dyn BufRead + Send + 'a>>;
+
+/// Reads frames of a dump in parts: a part ends where the first frame of the next one has begun again.
+pub struct Frames<'a> {
+    parts: VecDeque<Part<'a>>,
+}
+
+/// A part, and its first frame, if that was looked at already.
+struct Part<'a> {
+    reader: Reader<Box<dyn BufRead + Send + 'a>>,
+    ahead: Option<Result<Frame, Ended>>,
+}
+
+impl Part<'_> {
+    fn next_frame(&mut self) -> Result<Frame, Ended> {
+        self.ahead.take().unwrap_or_else(|| self.reader.next_frame())
+    }
+
+    fn first(&mut self) -> &Result<Frame, Ended> {
+        self.ahead.get_or_insert_with(|| self.reader.next_frame())
+    }
+}
+
+impl<'a> Frames<'a> {
+    /// Reads from parts.
+    pub fn new(parts: Parts<'a>) -> Frames<'a> {
+        let part = |input| Part { reader: Reader::new(input), ahead: None };
+        Frames { parts: parts.into_iter().map(part).collect() }
+    }
+
+    /// The next frame.
+    ///
+    /// # Errors
+    /// The end, or what is wrong.
+    pub fn next_frame(&mut self) -> Result<Frame, Ended> {
+        loop {
+            // A start that came to no frame has nothing to say, unless it is the last one.
+            while self.parts.len() > 2
+                && self.parts.get_mut(1).is_some_and(|p| matches!(p.first(), Err(Ended::Over | Ended::Torn)))
+            {
+                self.parts.remove(1);
+            }
+            let until = match self.parts.get_mut(1).map(Part::first) {
+                Some(Ok(frame)) => frame.step,
+                _ => u64::MAX,
+            };
+            let only = self.parts.len() == 1;
+            let Some(part) = self.parts.front_mut() else { return Err(Ended::Over) };
+            match part.next_frame() {
+                Ok(frame) if frame.step < until => return Ok(frame),
+                Err(ended) if only || matches!(ended, Ended::Wrong(_)) => return Err(ended),
+                _ => drop(self.parts.pop_front()),
+            }
+        }
+    }
+}
+
+/// Reads the frames of one part.
+struct Reader<R> {
     input: R,
     line: String,
 }
@@ -36,10 +95,9 @@ pub enum Ended {
     Wrong(String),
 }
 
-impl<R: BufRead> Frames<R> {
-    /// Reads from `input`.
-    pub fn new(input: R) -> Frames<R> {
-        Frames { input, line: String::new() }
+impl<R: BufRead> Reader<R> {
+    fn new(input: R) -> Reader<R> {
+        Reader { input, line: String::new() }
     }
 
     /// The next line; `None` at the end, also where a line has no end.
@@ -62,11 +120,7 @@ impl<R: BufRead> Frames<R> {
         line.trim().parse().map_err(|_| Ended::Wrong(format!("{what}: not a whole number: '{line}'")))
     }
 
-    /// The next frame.
-    ///
-    /// # Errors
-    /// The end, or what is wrong.
-    pub fn next_frame(&mut self) -> Result<Frame, Ended> {
+    fn next_frame(&mut self) -> Result<Frame, Ended> {
         let (mut step, mut count) = (0, 0);
         let mut begun = false;
         loop {
@@ -130,7 +184,7 @@ mod tests {
     #[test]
     fn frames_are_read_one_after_the_other() {
         let text = [ONE, ONE].concat();
-        let mut frames = Frames::new(text.as_bytes());
+        let mut frames = Reader::new(text.as_bytes());
         for _ in 0..2 {
             let frame = frames.next_frame().unwrap();
             assert_eq!(frame.step, 20);
@@ -142,8 +196,36 @@ mod tests {
     #[test]
     fn a_dump_that_ends_anywhere_inside_a_frame_is_broken() {
         for end in 1..ONE.len() {
-            let mut frames = Frames::new(&ONE.as_bytes()[..end]);
+            let mut frames = Reader::new(&ONE.as_bytes()[..end]);
             assert!(matches!(frames.next_frame(), Err(Ended::Torn)), "{end}");
         }
+    }
+
+    #[test]
+    fn a_part_ends_where_the_next_one_goes_on() {
+        let at = |step: u64| ONE.replacen("20", &step.to_string(), 1);
+        let steps = |parts: &[String]| {
+            let parts: Parts =
+                parts.iter().map(|p| Box::new(p.as_bytes()) as Box<dyn BufRead + Send>).collect();
+            let mut frames = Frames::new(parts);
+            let mut steps = Vec::new();
+            loop {
+                match frames.next_frame() {
+                    Ok(frame) => steps.push(frame.step),
+                    Err(ended) => return (steps, ended),
+                }
+            }
+        };
+        let torn = &ONE[..40];
+        let first = at(0) + &at(10) + &at(20) + torn;
+        // The second start went on from step 10, the third came to no frame, the fourth went on from step 30.
+        let second = at(20) + &at(30) + &at(40);
+        let fourth = at(40) + &at(50);
+        let (found, ended) = steps(&[first.clone(), second.clone(), String::new(), fourth]);
+        assert!(found == [0, 10, 20, 30, 40, 50] && matches!(ended, Ended::Over), "{found:?}");
+        let (found, ended) = steps(&[first.clone(), second, torn.to_owned()]);
+        assert!(found == [0, 10, 20, 30, 40] && matches!(ended, Ended::Torn), "{found:?}");
+        let (found, ended) = steps(&[first, "nonsense\n".to_owned(), at(30)]);
+        assert!(found == [0, 10, 20] && matches!(ended, Ended::Wrong(_)), "{found:?}");
     }
 }

@@ -25,6 +25,10 @@ pub enum LammpsError {
     NotLammps { program: String },
     #[error("{folder}: cannot write the deck: {error}")]
     Deck { folder: String, error: std::io::Error },
+    #[error(
+        "{folder}: holds something else than this run: give another --dir, or remove it (another scene, LAMMPS or number of grains is another run)"
+    )]
+    OtherDeck { folder: String },
     #[error("LAMMPS {how} at t = {time} s: {words}")]
     Died { how: String, time: geom::Shown, words: String },
     #[error("the dump of LAMMPS is wrong after t = {time} s: {what}")]

@@ -2,15 +2,17 @@
 
 use crate::arrivals::Arrival;
 use crate::data::number_of;
-use crate::dump::{Ended, Frame, Frames};
+use crate::deck::{FRAMES, ZONE};
+use crate::dump::{Ended, Frame, Frames, Parts};
 use crate::error::{LammpsError, Result};
+use crate::folder::{self, Start};
 use crate::outlet::{Found, Search};
 use crate::process::{Engine, Running};
 use dem::setup::{Particle, Setup};
 use geom::{Shown, Vec3};
 use run::{Progress, RunFile, Schedule};
 use std::collections::HashSet;
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufReader, Write};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::ExitStatus;
@@ -18,6 +20,9 @@ use std::sync::{Mutex, PoisonError};
 
 /// What is wrong with a dump that was cut off.
 const TORN: &str = "it ends inside a frame";
+
+/// Buffer of a pipe from LAMMPS.
+const BUFFER: usize = 1 << 18;
 
 /// Frames on their way to the file.
 pub struct Job<'a> {
@@ -67,12 +72,21 @@ impl Job<'_> {
         &mut self,
         file: &mut RunFile<W>,
         engine: &Engine,
-        folder: &Path,
+        (folder, start): (&Path, Option<&Start>),
         stop: fn() -> bool,
     ) -> Result<Option<String>> {
-        let (running, [frames, zone]) = Running::start(engine, folder, stop)?;
-        let zone = (!self.setup.outlets.is_empty()).then(|| BufReader::with_capacity(1 << 18, zone));
-        let read = self.read_then(file, BufReader::with_capacity(1 << 18, frames), zone, |read| {
+        let (running, pipes) = Running::start(engine, (folder, start), stop)?;
+        let mut dumps = Vec::new();
+        for (name, pipe) in [FRAMES, ZONE].into_iter().zip(pipes) {
+            dumps.push(match start {
+                None => Ok(vec![Box::new(BufReader::with_capacity(BUFFER, pipe)) as Box<_>]),
+                Some(start) => folder::kept(&folder.join(name), start, pipe, BUFFER),
+            });
+        }
+        let failed = |error| LammpsError::Deck { folder: folder.display().to_string(), error };
+        let zone = dumps.pop().filter(|_| !self.setup.outlets.is_empty()).transpose().map_err(failed)?;
+        let frames = dumps.pop().unwrap_or_else(|| Ok(Vec::new())).map_err(failed)?;
+        let read = self.read_then(file, frames, zone, |read| {
             if !matches!(read, Ok(Ended::Over)) {
                 running.abandon();
             }
@@ -99,8 +113,8 @@ impl Job<'_> {
     pub fn read<W: Write>(
         &mut self,
         file: &mut RunFile<W>,
-        frames: impl BufRead,
-        zone: Option<impl BufRead + Send>,
+        frames: Parts,
+        zone: Option<Parts>,
     ) -> Result<Ended> {
         self.read_then(file, frames, zone, |_| ())
     }
@@ -109,8 +123,8 @@ impl Job<'_> {
     fn read_then<W: Write>(
         &mut self,
         file: &mut RunFile<W>,
-        frames: impl BufRead,
-        zone: Option<impl BufRead + Send>,
+        frames: Parts,
+        zone: Option<Parts>,
         then: impl FnOnce(&Result<Ended>),
     ) -> Result<Ended> {
         let found = Mutex::new(Found::default());
@@ -140,7 +154,7 @@ impl Job<'_> {
     fn frames<W: Write>(
         &mut self,
         file: &mut RunFile<W>,
-        mut frames: Frames<impl BufRead>,
+        mut frames: Frames,
         found: Option<&Mutex<Found>>,
     ) -> Result<Ended> {
         loop {

@@ -6,7 +6,7 @@
 //!
 //! [`refusal`] lists what LAMMPS cannot do; [`law`] turns contact laws into coefficients of `pair_style granular` and `fix wall/gran`;
 //! [`deck`] is the text of a run, [`data`] its atoms; [`process`] starts LAMMPS and keeps its last words; [`dump`] reads frames while it
-//! runs and [`outlet`] finds crossings in samples; [`job`] writes them as [`run::RunFile`]. Modules use those before them in this list.
+//! runs, [`folder`] keeps what a later start goes on from, and [`outlet`] finds crossings in samples; [`job`] writes them as [`run::RunFile`]. Modules use those before them in this list.
 //!
 //! Sources: the documentation of LAMMPS (`pair_style granular`, `fix wall/gran`, `fix wall/gran/region`, `fix move`, `dump custom`) and its
 //! source of 29 Sep 2021 and 22 Jul 2025, against which the conversions are tested. Uses `dem` for the setup's types, `run` for the file.
@@ -18,6 +18,7 @@ mod data;
 mod deck;
 mod dump;
 mod error;
+mod folder;
 mod grain;
 mod job;
 mod law;
@@ -31,7 +32,9 @@ mod version;
 mod wall;
 
 pub use deck::Deck;
+pub use dump::Parts;
 pub use error::LammpsError;
+pub use folder::open;
 pub use law::Target;
 pub use process::Engine;
 pub use refusal::Refusal;

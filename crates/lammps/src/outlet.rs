@@ -7,13 +7,12 @@
 //! Behind the plane a grain moves freely and acts on all others, up to the exclusion plane; LAMMPS takes it out there.
 
 use crate::deck::{COLUMNS, ZONE};
-use crate::dump::{Ended, Frame, Frames, NUMBERS};
+use crate::dump::{Ended, Frame, Frames, NUMBERS, Parts};
 use crate::refusal::Refusal;
 use dem::setup::{Crossing, Particle, Setup, Zone, ZoneMotion, ZoneTest};
 use geom::Vec3;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::io::BufRead;
 
 /// Steps between two samples.
 const EVERY: u64 = 10;
@@ -66,7 +65,7 @@ pub fn commands(setup: &Setup) -> String {
     let _ = write!(
         text,
         "variable zone index {ZONE}\ndump zone grains custom {EVERY} ${{zone}} {COLUMNS}\n\
-         dump_modify zone first yes flush yes region {region} format float %.17g\n"
+         dump_modify zone first ${{first}} flush yes region {region} format float %.17g\n"
     );
     text
 }
@@ -102,8 +101,8 @@ impl Search {
     }
 
     /// Reads samples to the end; `tell` gets what each adds.
-    pub fn read(mut self, input: impl BufRead, tell: impl Fn(Found)) {
-        let mut frames = Frames::new(input);
+    pub fn read(mut self, samples: Parts, tell: impl Fn(Found)) {
+        let mut frames = Frames::new(samples);
         let wrong = loop {
             match frames.next_frame() {
                 Ok(frame) => tell(self.take(&frame)),

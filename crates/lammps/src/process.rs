@@ -2,6 +2,7 @@
 
 use crate::deck::INPUT;
 use crate::error::{LammpsError, Result};
+use crate::folder::Start;
 use crate::version::Version;
 use rustix::process::{Pid, Signal};
 use std::collections::VecDeque;
@@ -74,11 +75,15 @@ pub struct Running {
 }
 
 impl Running {
-    /// Starts the deck in a folder; its frames and its samples near outlets come from the pipes. `stop` is asked now and then whether it is to end.
+    /// Starts the deck in a folder, from its beginning or from a state that is kept there; its frames and its samples near outlets come from the pipes. `stop` is asked now and then whether it is to end.
     ///
     /// # Errors
     /// A program that cannot be started.
-    pub fn start(engine: &Engine, folder: &Path, stop: fn() -> bool) -> Result<(Running, [PipeReader; 2])> {
+    pub fn start(
+        engine: &Engine,
+        (folder, start): (&Path, Option<&Start>),
+        stop: fn() -> bool,
+    ) -> Result<(Running, [PipeReader; 2])> {
         let program = if engine.ranks > 1 { &engine.mpirun } else { &engine.lmp };
         let program = program.first().cloned().unwrap_or_default();
         let failed = |error| LammpsError::Start { program: program.clone(), error };
@@ -88,6 +93,10 @@ impl Running {
         let name = |pipe: &PipeWriter| format!("/proc/{}/fd/{}", std::process::id(), pipe.as_raw_fd());
         let mut command = engine.command();
         command.args(["-in", INPUT, "-log", "log.lammps", "-var", "zone", &name(&to_zone)]);
+        match start {
+            None => drop(command.args(["-var", "keep", "0"])),
+            Some(start) => drop(start.state.map(|state| command.args(["-var", "state", state]))),
+        }
         command.args(["-var", "frames", &name(&to_frames)]);
         // A group of its own: all of it is ended, and an interrupt of the terminal comes to this program first.
         command.process_group(0);

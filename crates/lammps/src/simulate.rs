@@ -2,7 +2,9 @@
 
 use crate::arrivals::{self, Arrival};
 use crate::deck::{Deck, Source};
+use crate::dump::Parts;
 use crate::error::{LammpsError, Result};
+use crate::folder;
 use crate::job::Job;
 use crate::law::Target;
 use crate::process::Engine;
@@ -12,7 +14,7 @@ use run::{Progress, RunError, RunFile, Schedule};
 use scene::keys::Sampling;
 use scene::{Plan, Scene};
 use serde::Serialize;
-use std::io::{BufRead, Write};
+use std::io::Write;
 use std::path::Path;
 use stream::mcap::{Provenance, StreamOptions};
 
@@ -28,10 +30,10 @@ pub struct Settings<W> {
 
 /// Where frames come from.
 pub enum Origin<'a> {
-    /// LAMMPS, which is started.
-    Engine(&'a Engine),
+    /// LAMMPS, which is started; in a folder that keeps its states, if there is one.
+    Engine(&'a Engine, Option<&'a Path>),
     /// A dump that it wrote before, and that of the samples near outlets, where the scene has any.
-    Dump(Box<dyn BufRead + 'a>, Option<Box<dyn BufRead + Send + 'a>>),
+    Dump(Parts<'a>, Option<Parts<'a>>),
 }
 
 /// What was done.
@@ -122,13 +124,20 @@ pub fn run<W: Write>(
             job.whole(ended)?;
             None
         }
-        Origin::Engine(engine) => {
+        Origin::Engine(engine, Some(folder)) => {
+            let start = folder::ready(&prepared.deck, setup, folder)?;
+            if start.number > 1 {
+                file.note(0.0, &format!("LAMMPS was started {} times", start.number))?;
+            }
+            job.live(&mut file, engine, (folder, Some(&start)), settings.stop)?
+        }
+        Origin::Engine(engine, None) => {
             let folder = tempfile::tempdir().map_err(|error| LammpsError::Deck {
                 folder: std::env::temp_dir().display().to_string(),
                 error,
             })?;
             prepared.write(folder.path())?;
-            job.live(&mut file, engine, folder.path(), settings.stop)?
+            job.live(&mut file, engine, (folder.path(), None), settings.stop)?
         }
     };
     let step = job.last.unwrap_or(0);

@@ -6,6 +6,7 @@ mod contacts;
 mod decks;
 mod faults;
 mod many;
+mod resume;
 
 use grainpipe_tests::tools::tool;
 use std::path::Path;

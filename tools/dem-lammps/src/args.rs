@@ -39,6 +39,9 @@ pub struct Args {
     /// Read the frames of a deck that has run elsewhere
     #[arg(long, value_name = "FILE")]
     pub read_dump: Option<Source>,
+    /// Keep the deck, frames and LAMMPS' restart files in a folder; the same command continues there
+    #[arg(long, value_name = "DIR")]
+    pub dir: Option<PathBuf>,
     /// MPI ranks [default: 1]
     #[arg(long, value_name = "N")]
     pub ranks: Option<NonZeroUsize>,
@@ -87,6 +90,7 @@ impl Args {
             ("--lmp", self.lmp.is_some() && reads),
             ("--mpirun", self.mpirun.is_some()),
             ("--progress", self.progress),
+            ("--dir", self.dir.is_some()),
             ("-o", self.output.path().is_some() && !reads),
         ];
         match unused.into_iter().find(|option| option.1) {

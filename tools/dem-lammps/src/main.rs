@@ -9,7 +9,6 @@ use cli::{Report, Source, Stopped};
 use lammps::{Engine, LammpsError, Origin, Prepared, Settings, Target, Version};
 use run::{Progress, RunError};
 use scene::{Input, Plan, Scene, SceneError};
-use std::fs::File;
 use std::io::BufReader;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -98,7 +97,10 @@ fn written(error: LammpsError, args: &Args) -> anyhow::Error {
 
 /// A dump, and that of the samples near outlets, which lies beside it.
 fn dump<'a>(source: &Source, plan: &Plan) -> anyhow::Result<Origin<'a>> {
-    let frames = Box::new(BufReader::new(source.open()?));
+    let frames = match source.path() {
+        Some(path) => lammps::open(path).with_context(|| format!("{}: cannot open it", path.display()))?,
+        None => vec![Box::new(BufReader::new(source.open()?)) as Box<_>],
+    };
     if plan.setup.outlets.is_empty() {
         return Ok(Origin::Dump(frames, None));
     }
@@ -108,8 +110,8 @@ fn dump<'a>(source: &Source, plan: &Plan) -> anyhow::Result<Origin<'a>> {
         ));
     };
     let path = path.with_file_name("zone.dump");
-    let zone = File::open(&path).with_context(|| format!("{}: cannot open it", path.display()))?;
-    Ok(Origin::Dump(frames, Some(Box::new(BufReader::new(zone)))))
+    let zone = lammps::open(&path).with_context(|| format!("{}: cannot open it", path.display()))?;
+    Ok(Origin::Dump(frames, Some(zone)))
 }
 
 fn simulate(
@@ -127,7 +129,7 @@ fn simulate(
         Settings { provenance: cli::provenance(plan.inputs.clone()), how, stop: cli::stop_requested };
     let origin = match &args.read_dump {
         Some(source) => dump(source, plan)?,
-        None => Origin::Engine(engine),
+        None => Origin::Engine(engine, args.dir.as_deref()),
     };
     let bar = (!args.progress).then(|| cli::Progress::new("run", BAR as u64));
     let mut saved = 0.0;
@@ -157,7 +159,8 @@ fn simulate(
     match &outcome.stopped {
         Some(reason) => {
             let time = geom::Shown(outcome.time);
-            Err(Stopped::error(format!("stopped {reason} at t = {time} s"), Some(report)))
+            let again = if args.dir.is_some() { ": the same command continues" } else { "" };
+            Err(Stopped::error(format!("stopped {reason} at t = {time} s{again}"), Some(report)))
         }
         None => Ok(report),
     }

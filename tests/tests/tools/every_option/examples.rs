@@ -43,7 +43,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-run spheres.toml --until 0.00002 --device local -o local.mcap",
     "dem-run up.toml -o up.mcap",
     "dem-lammps spheres.toml --set contact.0.restitution=0.3 --until 0.00002 --progress --lmp lmp -o lammps.mcap --report r.json --threads 2 -q",
-    "dem-lammps spheres.toml --ranks 2 --mpirun 'mpirun.openmpi --allow-run-as-root --oversubscribe' --output lammps2.mcap --quiet",
+    "dem-lammps spheres.toml --dir kept --ranks 2 --mpirun 'mpirun.openmpi --allow-run-as-root --oversubscribe' --output lammps2.mcap --quiet",
     "dem-lammps spheres.toml --nearest --write-deck deck",
     "dem-lammps spheres.toml --read-dump frames.dump -o lammps3.mcap",
     "dem-lammps spheres.toml --check",

@@ -69,6 +69,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-run s.toml --materials", "--materials has no effect: no [[material]] leaves out a number"),
     ("dem-run s.toml --check --device local", "--device: --check runs nothing: leave it out"),
     ("dem-lammps spheres.toml --check --progress", "--progress: --check runs nothing: leave it out"),
+    ("dem-lammps spheres.toml --check --dir kept", "--dir: --check runs nothing: leave it out"),
     ("dem-lammps spheres.toml --mpirun mpirun", "--mpirun: one rank needs no launcher"),
     ("dem-run s.toml --check --progress", "--progress: --check runs nothing: leave it out"),
     ("dem-run s.toml --explain --check", "--check: --explain checks the scene as well: leave it out"),
