@@ -7,6 +7,14 @@ mkdir -p "$1"
 out=$(cd "$1" && pwd) page=$2 docs=$(dirname "$2") repeats=${REPEATS:-30} jobs=${JOBS:-2}
 truth="stiffness=65 strength=28 spread=0.45 friction=0.62 envelope=0.7"
 
+# compared TRUTH FOUND.csv: a table of what was found beside the truth, `name=value …`.
+compared() {
+  awk -F, -v truth="$1" '
+    BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], pair, "="); value[pair[1]] = pair[2] }
+      print "| parameter | truth | found | error | 90 % interval |\n|---|---|---|---|---|" }
+    NR > 1 { printf "| %s | %s | %.4g | %+.1f %% | %.4g to %.4g |\n", $1, value[$1], $3, 100 * ($3 / value[$1] - 1), $4, $5 }' "$2"
+}
+
 # specimens FOLDER FIRST COUNT: curves of specimens FIRST, FIRST + 1 … at each load, and in `data` the options that name them.
 specimens() {
   mkdir -p "$1"
@@ -21,11 +29,7 @@ specimens() {
 specimens "$out/synthetic" 200001 3
 calibrate "$here/synthetic.toml" "${data[@]}" --jobs "$jobs" --dir "$out/synthetic/trials" -q \
   --plot "$docs/calibration-synthetic.png" -o "$out/synthetic/found.csv"
-awk -F, -v truth="$truth" '
-  BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], pair, "="); value[pair[1]] = pair[2] }
-    print "| parameter | truth | found | error | 90 % interval |\n|---|---|---|---|---|" }
-  NR > 1 { printf "| %s | %s | %.4g | %+.1f %% | %.4g to %.4g |\n", $1, value[$1], $3, 100 * ($3 / value[$1] - 1), $4, $5 }' \
-  "$out/synthetic/found.csv" > "$out/synthetic.md"
+compared "$truth" "$out/synthetic/found.csv" > "$out/synthetic.md"
 "$here/../stages/section.sh" "$page" synthetic < "$out/synthetic.md"
 
 for k in $(seq "$repeats"); do
@@ -51,6 +55,29 @@ calibrate "$here/free-flowing.toml" --data "heap=$out/lab/angles.csv" --data "di
   --plot "$docs/calibration-grains.png" --words "$out/grains.md" -o "$out/grains.csv"
 "$here/../stages/section.sh" "$page" grains < "$out/grains.md"
 
-# Cores on lab-test: 88 of them, half a minute each.
+# Cores on lab-test: 88 of them.
 calibrate "$here/rock.toml" --jobs "$jobs" --dir "$out/rock" -q --plot "$docs/calibration-rock.png" --words "$out/rock.md" -o "$out/rock.csv"
 "$here/../stages/section.sh" "$page" rock < "$out/rock.md"
+
+# Soil on lab-test: specimens with known parameters, three at each of three stresses, stand for those of a laboratory.
+soil="contact.0.contact_modulus=4e7 bond.0.modulus=4e7 contact.0.tangential_ratio=0.6 bond.0.tensile_strength=4e5 bond.0.deviation=0.25
+  contact.0.sliding_friction=0.6 bond.0.strength_ratio=1.5"
+known="modulus=4e7 tangential_ratio=0.6 tensile_strength=4e5 strength_deviation=0.25 friction=0.6 strength_ratio=1.5"
+mkdir -p "$out/soil"
+# shellcheck disable=SC2086
+[ -e "$out/soil/curves.csv" ] || lab-test direct-shear "$here/cemented-soil.toml" --grains 1000 --strain 0.09 --stress '100 kPa,200 kPa,400 kPa' \
+  --seeds 3 --seed 1001 $(printf -- '--set %s ' $soil) -q --dir "$out/soil/specimens" -o "$out/soil/curves.csv"
+data=()
+for stress in 100 200 400; do for seed in 1001 1002 1003; do
+  awk -F, -v stress=${stress}000 -v seed=$seed 'NR == 1 || $1 == stress && $2 == seed' "$out/soil/curves.csv" > "$out/soil/$stress-$seed.csv"
+  data+=(--data "$stress kPa=$out/soil/$stress-$seed.csv")
+done; done
+calibrate "$here/soil.toml" "${data[@]}" --jobs "$jobs" --dir "$out/soil/trials" -q --plot "$docs/calibration-soil.png" --words "$out/soil.md" -o "$out/soil.csv"
+compared "$known" "$out/soil.csv" > "$out/soil-found.md"
+"$here/../stages/section.sh" "$page" soil < "$out/soil-found.md"
+
+# A real sand: parameters from its test at 100 kPa, then predictions of those at other stresses.
+calibrate "$here/karlsruhe.toml" --jobs "$jobs" --dir "$out/karlsruhe" -q --plot "$docs/calibration-karlsruhe.png" --words "$out/karlsruhe.md" -o "$out/karlsruhe.csv"
+"$here/../stages/section.sh" "$page" karlsruhe < "$out/karlsruhe.md"
+"$here/karlsruhe.sh" "$out/karlsruhe.csv" "$out/predicted" > "$out/predicted.md"
+"$here/../stages/section.sh" "$page" karlsruhe-predicted < "$out/predicted.md"

@@ -100,7 +100,7 @@ fn a_killed_run_goes_on_from_its_folder() {
         wait_for(&path.join("kept").join(state));
         child.kill().unwrap();
         child.wait().unwrap();
-        // LAMMPS ends when nobody reads its frames.
+        // LAMMPS ends when its frames are not read.
         std::thread::sleep(Duration::from_millis(300));
         assert!(!path.join("again.mcap").exists());
     }
