@@ -166,6 +166,9 @@ impl<'a> Session<'a> {
                     return Ok(None);
                 }
                 trials += count;
+                if let Some(rate) = work.rate_so_far(self.jobs) {
+                    self.watch.tell(&rate);
+                }
                 work.check_sizes(self, step, tried)?;
             }
             batch += 1;

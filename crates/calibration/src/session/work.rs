@@ -7,7 +7,7 @@ use crate::trial::run::{Ended, Hashes};
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Runs of a step that are measured before its rate is printed.
+/// Runs of a step that are measured before its rate is printed; it is printed again after the first batch, whose runs are those of all parameters.
 const MEASURED: usize = 4;
 /// Trials that are all this many times as large as the data have other units.
 const OTHER_UNITS: f64 = 100.0;
@@ -96,6 +96,12 @@ impl Work {
             all_failed: count.failed == count.own && count.done == count.own,
             rate: tell.then(|| self.rate(&count, jobs)),
         }
+    }
+
+    /// How long the step will take, by the runs so far; `None` where none was made.
+    pub fn rate_so_far(&self, jobs: usize) -> Option<String> {
+        let count = self.lock();
+        (count.measured.0 > 0).then(|| self.rate(&count, jobs))
     }
 
     fn rate(&self, count: &Count, jobs: usize) -> String {
