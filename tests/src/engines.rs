@@ -13,10 +13,18 @@ use stream::mcap::{Event, Reader};
 /// # Panics
 /// When it is not whole.
 pub fn frames(path: &Path) -> Vec<Table> {
+    frames_of(path, "/particles")
+}
+
+/// The tables of a topic of a run, in the order of time.
+///
+/// # Panics
+/// When the run is missing or broken.
+pub fn frames_of(path: &Path, wanted: &str) -> Vec<Table> {
     let mut all = Vec::new();
     for event in Reader::new(File::open(path).expect("the run is there")) {
         if let Event::Points { topic, table, .. } = event.expect("the run is whole")
-            && topic == "/particles"
+            && topic == wanted
         {
             all.push(table);
         }

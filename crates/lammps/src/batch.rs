@@ -1,6 +1,6 @@
 //! A batch script for Slurm.
 
-use crate::deck::STATES;
+use crate::deck::{FINISHED, STATES};
 use crate::folder::END;
 use std::path::Path;
 
@@ -8,21 +8,34 @@ use std::path::Path;
 pub fn slurm(scene: &str, ranks: usize) -> String {
     let stem = Path::new(scene).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    let ([a, b], length) = (STATES, END.len());
+    let ([a, b], length) = (STATES, END.len() + 1);
     format!(
         "#!/bin/bash\n#SBATCH --job-name={name}\n#SBATCH --ntasks={ranks}\n#SBATCH --output=slurm-%j.out\n\
          # Set the time limit and the partition of your cluster:  sbatch --time=12:00:00 --partition=NAME batch.sh\n\
          cd \"${{SLURM_SUBMIT_DIR:-.}}\"\n\
          # Submitted again, it goes on from the newest state that is whole.\n\
+         [ -e {FINISHED} ] && echo \"all steps are done\" && exit\n\
          options=() part=2\n\
          for state in $(ls -t {a} {b} 2> /dev/null); do\n  \
            tail -c {length} \"$state\" | tr -d '\\0' | grep -q '{END}' || continue\n  \
            while [ -e \"frames-$part.dump\" ]; do part=$((part + 1)); done\n  \
-           options=(-var state \"$state\" -var frames \"frames-$part.dump\" -var zone \"zone-$part.dump\")\n  \
+           options=(-var state \"$state\" -var frames \"frames-$part.dump\" -var zone \"zone-$part.dump\" -var pairs \"pairs-$part.dump\" -var touches \"touches-$part.dump\")\n  \
            break\n\
          done\n\
-         [ ${{#options[@]}} -gt 0 ] || rm -f frames-*.dump zone-*.dump\n\
+         [ ${{#options[@]}} -gt 0 ] || rm -f frames-*.dump zone-*.dump pairs-*.dump touches-*.dump\n\
          srun ${{LMP:-lmp}} -in run.in \"${{options[@]}}\"\n\
          # Then, where Grainpipe is:  dem-lammps SCENE.toml --read-dump frames.dump -o run.mcap\n"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_script_is_text() {
+        let script = slurm("a plant.toml", 3);
+        assert!(script.starts_with("#!/bin/bash\n#SBATCH --job-name=a-plant\n#SBATCH --ntasks=3\n"));
+        assert!(!script.contains('\0') && script.contains("tr -d '\\0'"), "Slurm refuses bytes of zero");
+    }
 }

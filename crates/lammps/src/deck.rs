@@ -5,6 +5,7 @@ use crate::batch;
 use crate::data;
 use crate::error::{LammpsError, Result};
 use crate::law::{Target, coefficients};
+use crate::loads::Asked;
 use crate::outlet;
 use crate::refusal::{self, Refusal};
 use crate::types::{Types, law};
@@ -27,6 +28,8 @@ pub const ZONE: &str = "zone.dump";
 const BATCH: &str = "batch.sh";
 /// The files that LAMMPS keeps its state in, in turn.
 pub const STATES: [&str; 2] = ["state_1", "state_2"];
+/// The file that says that the last step was reached.
+pub const FINISHED: &str = "finished";
 /// States of a run, where the scene has no `output.checkpoint`.
 const KEPT: f64 = 20.0;
 
@@ -59,6 +62,8 @@ pub struct Deck {
     pub batch: String,
     /// What was replaced by the nearest that LAMMPS can do.
     pub bent: Vec<Refusal>,
+    /// What of contacts it dumps.
+    pub asked: Asked,
     types: Types,
     /// Times at which grains that come in are free [s], by their ids.
     free: Vec<(u32, f64)>,
@@ -87,7 +92,8 @@ impl Deck {
             })
         };
         let pairs = keep(pairs(setup, &types, target, &mut bent));
-        let walls = keep(wall::commands(setup, &types, target, &mut bent));
+        let asked = Asked::of(&scene.keys, setup, &types);
+        let walls = keep(wall::commands(setup, &types, (target, asked.touches()), &mut bent));
         for list in [&mut refused, &mut bent] {
             let mut seen = Vec::new();
             list.retain(|one| {
@@ -110,22 +116,18 @@ impl Deck {
             walls,
             free,
             outlet::commands(setup),
-            tail(scene, from.schedule),
+            tail(scene, from.schedule, &asked),
         ]
         .concat();
         let free = arrivals.iter().map(|a| (a.id, a.free)).collect();
-        Ok(Deck { input, batch: batch::slurm(&scene.text.name, from.ranks), bent, types, free })
+        Ok(Deck { input, batch: batch::slurm(&scene.text.name, from.ranks), bent, asked, types, free })
     }
 
-    /// Whether a folder holds this deck.
+    /// Whether the particles in a folder are those of this deck.
     ///
     /// # Errors
-    /// Files that cannot be read.
-    pub fn is_in(&self, setup: &Setup, folder: &Path) -> std::io::Result<bool> {
-        let input = folder.join(INPUT);
-        if !input.exists() || std::fs::read(&input)? != self.input.as_bytes() {
-            return Ok(false);
-        }
+    /// A file that cannot be read.
+    pub fn has_particles_of(&self, setup: &Setup, folder: &Path) -> std::io::Result<bool> {
         let mut data = Same::new(BufReader::new(File::open(folder.join(DATA))?));
         data::write(setup, &self.types, &self.free, &mut data)?;
         data.ends()
@@ -138,11 +140,14 @@ impl Deck {
     pub fn write(&self, setup: &Setup, folder: &Path) -> Result<()> {
         let write = || {
             std::fs::create_dir_all(folder)?;
-            std::fs::write(folder.join(INPUT), &self.input)?;
-            std::fs::write(folder.join(BATCH), &self.batch)?;
             let mut data = BufWriter::with_capacity(1 << 20, File::create(folder.join(DATA))?);
             data::write(setup, &self.types, &self.free, &mut data)?;
-            data.flush()
+            data.flush()?;
+            std::fs::write(folder.join(BATCH), &self.batch)?;
+            // A folder with an input script has all of the deck.
+            let part = folder.join(format!("{INPUT}.part"));
+            std::fs::write(&part, &self.input)?;
+            std::fs::rename(part, folder.join(INPUT))
         };
         write().map_err(|error| LammpsError::Deck { folder: folder.display().to_string(), error })
     }
@@ -276,20 +281,22 @@ fn motion(Source { setup, arrivals, target, .. }: &Source) -> String {
 }
 
 /// Output and the run: frame k is at the step nearest to k × `every`, the last step is one.
-fn tail(scene: &Scene, schedule: &Schedule) -> String {
+fn tail(scene: &Scene, schedule: &Schedule, asked: &Asked) -> String {
     let Schedule { dt, last, every, .. } = schedule;
     let report = (last / 200).max(1);
     let keep = scene.keys.output.checkpoint.map_or(*last as f64 / KEPT, |s| s / dt).clamp(1.0, *last as f64);
-    let (keep, [a, b]) = (keep.round(), STATES);
+    let (keep, [a, b], loads) = (keep.round(), STATES, asked.commands());
     format!(
         "\n# frames\nvariable frames index {FRAMES}\n\
          variable due equal \"round((round(step*{dt:?}/{every:?})+1)*{every:?}/{dt:?})\"\n\
          variable next equal \"(v_due<{last} || step>={last})*v_due+(v_due>={last} && step<{last})*{last}\"\n\
          dump frames grains custom 1 ${{frames}} {COLUMNS}\n\
          dump_modify frames every v_next first ${{first}} flush yes format float %.17g\n\
+         {loads}\n\
          thermo {report}\nthermo_style custom step ke\nthermo_modify lost error flush yes\n\
          # states, in turn: lmp -in run.in -var state {a} -var frames frames-2.dump goes on from one\n\
          variable keep index {keep}\nif \"${{state}} == {a}\" then \"variable states string '{b} {a}'\" else \"variable states string '{a} {b}'\"\n\
-         if \"${{keep}} > 0\" then \"restart ${{keep}} ${{states}}\"\nrun {last} upto\n"
+         if \"${{keep}} > 0\" then \"restart ${{keep}} ${{states}}\"\nrun {last} upto\n\
+         print \"step {last}\" file {FINISHED}\n"
     )
 }

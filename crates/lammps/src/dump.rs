@@ -1,76 +1,84 @@
-//! Frames of a text dump, one after the other, while LAMMPS writes them.
+//! Blocks of a text dump, one for each time that LAMMPS writes it, while LAMMPS runs.
 //!
 //! ```text
-//! ITEM: TIMESTEP / step / ITEM: NUMBER OF ATOMS / n / ITEM: BOX BOUNDS … / three lines / ITEM: ATOMS id x y z … / n lines
+//! ITEM: TIMESTEP / step / ITEM: NUMBER OF … / n / ITEM: BOX BOUNDS … / three lines / ITEM: ATOMS or ENTRIES, columns / n lines
 //! ```
 
-use crate::deck::COLUMNS;
 use std::collections::VecDeque;
 use std::io::{self, BufRead};
 
-/// Numbers of an atom after its id.
-pub const NUMBERS: usize = 9;
-
-/// A frame.
+/// A block of rows, such as a frame.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Frame {
+pub struct Block {
     /// Step.
     pub step: u64,
-    /// Number of an atom, and its position [m], velocity [m/s] and angular velocity [rad/s].
-    pub atoms: Vec<(u64, [f64; NUMBERS])>,
+    columns: usize,
+    values: Vec<f64>,
+}
+
+impl Block {
+    /// Its rows, each of as many numbers as the dump has columns.
+    pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.values.chunks_exact(self.columns)
+    }
+
+    /// How many rows there are.
+    pub fn len(&self) -> usize {
+        self.values.len() / self.columns
+    }
 }
 
 /// Parts of a dump: what LAMMPS wrote after its first start, after its second …
 pub type Parts<'a> = Vec<Box<dyn BufRead + Send + 'a>>;
 
-/// Reads frames of a dump in parts: a part ends where the first frame of the next one has begun again.
-pub struct Frames<'a> {
+/// Reads a dump in parts: a part ends where the first block of the next one has begun again.
+pub struct Dump<'a> {
     parts: VecDeque<Part<'a>>,
 }
 
-/// A part, and its first frame, if that was looked at already.
+/// A part, and its first block, if that was looked at already.
 struct Part<'a> {
     reader: Reader<Box<dyn BufRead + Send + 'a>>,
-    ahead: Option<Result<Frame, Ended>>,
+    ahead: Option<Result<Block, Ended>>,
 }
 
 impl Part<'_> {
-    fn next_frame(&mut self) -> Result<Frame, Ended> {
-        self.ahead.take().unwrap_or_else(|| self.reader.next_frame())
+    fn next_block(&mut self) -> Result<Block, Ended> {
+        self.ahead.take().unwrap_or_else(|| self.reader.next_block())
     }
 
-    fn first(&mut self) -> &Result<Frame, Ended> {
-        self.ahead.get_or_insert_with(|| self.reader.next_frame())
+    fn first(&mut self) -> &Result<Block, Ended> {
+        self.ahead.get_or_insert_with(|| self.reader.next_block())
     }
 }
 
-impl<'a> Frames<'a> {
-    /// Reads from parts.
-    pub fn new(parts: Parts<'a>) -> Frames<'a> {
-        let part = |input| Part { reader: Reader::new(input), ahead: None };
-        Frames { parts: parts.into_iter().map(part).collect() }
+impl<'a> Dump<'a> {
+    /// Reads from parts, which have these columns.
+    pub fn new(parts: Parts<'a>, columns: &str) -> Dump<'a> {
+        let part = |input| Part { reader: Reader::new(input, columns), ahead: None };
+        Dump { parts: parts.into_iter().map(part).collect() }
     }
 
-    /// The next frame.
+    /// The next block.
     ///
     /// # Errors
     /// The end, or what is wrong.
-    pub fn next_frame(&mut self) -> Result<Frame, Ended> {
+    pub fn next_block(&mut self) -> Result<Block, Ended> {
         loop {
-            // A start that came to no frame has nothing to say, unless it is the last one.
+            // A start that came to no block has nothing to say, unless it is the last one.
             while self.parts.len() > 2
                 && self.parts.get_mut(1).is_some_and(|p| matches!(p.first(), Err(Ended::Over | Ended::Torn)))
             {
                 self.parts.remove(1);
             }
             let until = match self.parts.get_mut(1).map(Part::first) {
-                Some(Ok(frame)) => frame.step,
+                Some(Ok(block)) => block.step,
                 _ => u64::MAX,
             };
             let only = self.parts.len() == 1;
             let Some(part) = self.parts.front_mut() else { return Err(Ended::Over) };
-            match part.next_frame() {
-                Ok(frame) if frame.step < until => return Ok(frame),
+            match part.next_block() {
+                Ok(block) if block.step < until => return Ok(block),
                 Err(ended) if only || matches!(ended, Ended::Wrong(_)) => return Err(ended),
                 _ => drop(self.parts.pop_front()),
             }
@@ -78,26 +86,27 @@ impl<'a> Frames<'a> {
     }
 }
 
-/// Reads the frames of one part.
+/// Reads the blocks of one part.
 struct Reader<R> {
     input: R,
     line: String,
+    columns: String,
 }
 
-/// Why there is no next frame.
+/// Why there is no next block.
 #[derive(Debug)]
 pub enum Ended {
-    /// The dump is over between two frames.
+    /// The dump is over between two blocks.
     Over,
-    /// It ends inside a frame.
+    /// It ends inside a block.
     Torn,
     /// It is wrong.
     Wrong(String),
 }
 
 impl<R: BufRead> Reader<R> {
-    fn new(input: R) -> Reader<R> {
-        Reader { input, line: String::new() }
+    fn new(input: R, columns: &str) -> Reader<R> {
+        Reader { input, line: String::new(), columns: columns.to_owned() }
     }
 
     /// The next line; `None` at the end, also where a line has no end.
@@ -120,7 +129,7 @@ impl<R: BufRead> Reader<R> {
         line.trim().parse().map_err(|_| Ended::Wrong(format!("{what}: not a whole number: '{line}'")))
     }
 
-    fn next_frame(&mut self) -> Result<Frame, Ended> {
+    fn next_block(&mut self) -> Result<Block, Ended> {
         let (mut step, mut count) = (0, 0);
         let mut begun = false;
         loop {
@@ -134,49 +143,52 @@ impl<R: BufRead> Reader<R> {
             begun = true;
             if line.starts_with("ITEM: TIMESTEP") {
                 step = self.number("step")?;
-            } else if line.starts_with("ITEM: NUMBER OF ATOMS") {
-                count = self.number("number of atoms")?;
+            } else if line.starts_with("ITEM: NUMBER OF ") {
+                count = self.number("number of rows")?;
             } else if line.starts_with("ITEM: BOX BOUNDS") {
                 for _ in 0..3 {
                     self.needed()?;
                 }
-            } else if let Some(columns) = line.strip_prefix("ITEM: ATOMS ") {
-                if columns != COLUMNS {
-                    return Err(Ended::Wrong(format!("its columns are '{columns}', not '{COLUMNS}'")));
+            } else if let Some(columns) =
+                ["ITEM: ATOMS ", "ITEM: ENTRIES "].iter().find_map(|head| line.strip_prefix(head))
+            {
+                if columns != self.columns {
+                    return Err(Ended::Wrong(format!("its columns are '{columns}', not '{}'", self.columns)));
                 }
-                return self.atoms(step, count);
+                return self.rows(step, count);
             } else {
                 return Err(Ended::Wrong(format!("unexpected line '{line}'")));
             }
         }
     }
 
-    fn atoms(&mut self, step: u64, count: u64) -> Result<Frame, Ended> {
-        let mut atoms = Vec::with_capacity(count.min(1 << 24) as usize);
-        for _ in 0..count {
+    fn rows(&mut self, step: u64, count: u64) -> Result<Block, Ended> {
+        let columns = self.columns.split_ascii_whitespace().count();
+        let mut values = Vec::with_capacity((count as usize).min(1 << 22) * columns);
+        for row in 1..=count as usize {
             let line = self.needed()?;
-            let atom =
-                row(line).ok_or_else(|| Ended::Wrong(format!("step {step}: not an atom: '{line}'")))?;
-            atoms.push(atom);
+            let before = values.len();
+            for word in line.split_ascii_whitespace() {
+                match word.parse::<f64>() {
+                    // More numbers than columns are wrong, too, and no reason to read on.
+                    Ok(value) if values.len() <= before + columns => values.push(value),
+                    _ => break,
+                }
+            }
+            if values.len() != before + columns || line.split_ascii_whitespace().count() != columns {
+                return Err(Ended::Wrong(format!(
+                    "step {step}: row {row} has not {columns} numbers: '{line}'"
+                )));
+            }
         }
-        Ok(Frame { step, atoms })
+        Ok(Block { step, columns, values })
     }
-}
-
-/// An atom of a line.
-fn row(line: &str) -> Option<(u64, [f64; NUMBERS])> {
-    let mut words = line.split_ascii_whitespace();
-    let number = words.next()?.parse().ok()?;
-    let mut values = [0.0; NUMBERS];
-    for value in &mut values {
-        *value = words.next()?.parse().ok()?;
-    }
-    words.next().is_none().then_some((number, values))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::deck::COLUMNS;
 
     const ONE: &str = "ITEM: TIMESTEP\n20\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp mm\n0 1\n0 1\n0 1\n\
         ITEM: ATOMS id x y z vx vy vz omegax omegay omegaz\n3 0.5 0.5 1e-3 0 0 -1 0 0 2 \n";
@@ -184,20 +196,21 @@ mod tests {
     #[test]
     fn frames_are_read_one_after_the_other() {
         let text = [ONE, ONE].concat();
-        let mut frames = Reader::new(text.as_bytes());
+        let mut frames = Reader::new(text.as_bytes(), COLUMNS);
         for _ in 0..2 {
-            let frame = frames.next_frame().unwrap();
+            let frame = frames.next_block().unwrap();
             assert_eq!(frame.step, 20);
-            assert_eq!(frame.atoms, [(3, [0.5, 0.5, 1e-3, 0.0, 0.0, -1.0, 0.0, 0.0, 2.0])]);
+            let rows: Vec<&[f64]> = frame.rows().collect();
+            assert_eq!(rows, [[3.0, 0.5, 0.5, 1e-3, 0.0, 0.0, -1.0, 0.0, 0.0, 2.0]]);
         }
-        assert!(matches!(frames.next_frame(), Err(Ended::Over)));
+        assert!(matches!(frames.next_block(), Err(Ended::Over)));
     }
 
     #[test]
     fn a_dump_that_ends_anywhere_inside_a_frame_is_broken() {
         for end in 1..ONE.len() {
-            let mut frames = Reader::new(&ONE.as_bytes()[..end]);
-            assert!(matches!(frames.next_frame(), Err(Ended::Torn)), "{end}");
+            let mut frames = Reader::new(&ONE.as_bytes()[..end], COLUMNS);
+            assert!(matches!(frames.next_block(), Err(Ended::Torn)), "{end}");
         }
     }
 
@@ -207,10 +220,10 @@ mod tests {
         let steps = |parts: &[String]| {
             let parts: Parts =
                 parts.iter().map(|p| Box::new(p.as_bytes()) as Box<dyn BufRead + Send>).collect();
-            let mut frames = Frames::new(parts);
+            let mut frames = Dump::new(parts, COLUMNS);
             let mut steps = Vec::new();
             loop {
-                match frames.next_frame() {
+                match frames.next_block() {
                     Ok(frame) => steps.push(frame.step),
                     Err(ended) => return (steps, ended),
                 }

@@ -25,10 +25,14 @@ pub enum LammpsError {
     NotLammps { program: String },
     #[error("{folder}: cannot write the deck: {error}")]
     Deck { folder: String, error: std::io::Error },
+    #[error("{folder}: cannot use the folder: {error}")]
+    Folder { folder: String, error: std::io::Error },
+    #[error("{folder}: holds another run: {what}: give another folder")]
+    OtherDeck { folder: String, what: String },
     #[error(
-        "{folder}: holds something else than this run: give another --dir, or remove it (another scene, LAMMPS or number of grains is another run)"
+        "{folder}: another dem-lammps works there, or the LAMMPS of one that was killed, which ends soon: wait, or end it"
     )]
-    OtherDeck { folder: String },
+    Busy { folder: String },
     #[error("LAMMPS {how} at t = {time} s: {words}")]
     Died { how: String, time: geom::Shown, words: String },
     #[error("the dump of LAMMPS is wrong after t = {time} s: {what}")]

@@ -1,29 +1,55 @@
 //! A folder that keeps a deck, its dumps, and the states from which LAMMPS goes on.
 //!
 //! ```text
-//! run.in particles.data     the deck
-//! state_1 state_2           states, in turn: the newest may be torn, the other one is whole then
-//! frames.dump frames-2.dump …  frames of the first start, of the second …; zone.dump … likewise
+//! run.in particles.data        the deck
+//! state_1 state_2              states, in turn: the newest may be torn, the other one is whole then
+//! frames.dump frames-2.dump …  frames of the first start, of the second …; the other dumps likewise
+//! finished                     the last step was reached
+//! lock                         held by dem-lammps and by its LAMMPS, as long as one of them lives
 //! ```
+//!
+//! LAMMPS writes the dumps itself, so that none of them is lost with dem-lammps, which follows them.
 
-use crate::deck::{Deck, FRAMES, STATES, ZONE};
+use crate::deck::{Deck, FINISHED, FRAMES, INPUT, STATES};
 use crate::dump::Parts;
 use crate::error::{LammpsError, Result};
+use crate::job::DUMPS;
 use dem::setup::Setup;
 use std::fs::{self, File};
-use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
+use std::time::Duration;
 
-/// How a state that is whole ends.
-pub const END: &str = "LammpS RestartT\0";
+/// How a state that is whole ends, before a byte of zero.
+pub const END: &str = "LammpS RestartT";
+/// Time between looks at a file that grows.
+const LOOK: Duration = Duration::from_millis(10);
+const LOCK: &str = "lock";
 
 /// From where LAMMPS goes on.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub struct Start {
+    /// The folder.
+    pub folder: PathBuf,
     /// The state; none: from the beginning.
     pub state: Option<&'static str>,
     /// Which start it is, from 1.
     pub number: usize,
+    /// Whether the last step was reached before.
+    pub finished: bool,
+    /// What the user should know.
+    pub warning: Option<String>,
+    /// Held while dem-lammps or its LAMMPS lives.
+    pub lock: File,
+}
+
+impl Start {
+    /// The name of a dump of this start.
+    pub fn dump(&self, name: &str) -> PathBuf {
+        part(Path::new(name), self.number)
+    }
 }
 
 /// The name of a dump of a start: `frames.dump`, then `frames-2.dump`.
@@ -43,13 +69,14 @@ fn parts(dump: &Path) -> impl Iterator<Item = PathBuf> {
     (1..).map(|n| part(dump, n)).take_while(|path| path.exists())
 }
 
-/// A dump with the parts of later starts.
+/// A dump; one that has the name of a deck's, with the parts of later starts.
 ///
 /// # Errors
 /// A file that cannot be opened.
 pub fn open<'a>(dump: &Path) -> io::Result<Parts<'a>> {
     let mut all: Parts = vec![Box::new(BufReader::new(File::open(dump)?))];
-    for path in parts(dump).skip(1) {
+    let of_deck = dump.file_name().is_some_and(|name| DUMPS.iter().any(|d| name == *d));
+    for path in parts(dump).skip(1).filter(|_| of_deck) {
         all.push(Box::new(BufReader::new(File::open(path)?)));
     }
     Ok(all)
@@ -58,24 +85,57 @@ pub fn open<'a>(dump: &Path) -> io::Result<Parts<'a>> {
 /// Readies a folder: a new one gets the deck; one that holds it goes on from its newest state that is whole.
 ///
 /// # Errors
-/// A folder of another deck, or one that cannot be used.
+/// A folder of another deck, one where another process works, or one that cannot be used.
 pub fn ready(deck: &Deck, setup: &Setup, folder: &Path) -> Result<Start> {
-    let failed = |error| LammpsError::Deck { folder: folder.display().to_string(), error };
-    let used = folder.is_dir() && fs::read_dir(folder).map_err(failed)?.next().is_some();
-    if !used {
+    let failed = |error| LammpsError::Folder { folder: folder.display().to_string(), error };
+    fs::create_dir_all(folder).map_err(failed)?;
+    let lock = File::options().create(true).append(true).open(folder.join(LOCK)).map_err(failed)?;
+    if lock.try_lock().is_err() {
+        return Err(LammpsError::Busy { folder: folder.display().to_string() });
+    }
+    let fresh =
+        Start { folder: folder.to_owned(), state: None, number: 1, finished: false, warning: None, lock };
+    if !folder.join(INPUT).exists() {
         deck.write(setup, folder)?;
-        return Ok(Start { state: None, number: 1 });
+        return Ok(fresh);
     }
-    if !deck.is_in(setup, folder).map_err(failed)? {
-        return Err(LammpsError::OtherDeck { folder: folder.display().to_string() });
+    same(deck, setup, folder)?;
+    let finished = folder.join(FINISHED).exists();
+    let (state, count) = (newest(folder).map_err(failed)?, parts(&folder.join(FRAMES)).count());
+    if finished || state.is_some() {
+        return Ok(Start { state, number: count + 1, finished, ..fresh });
     }
-    let state = newest(folder).map_err(failed)?;
-    let dumps = [FRAMES, ZONE].map(|name| folder.join(name));
-    if state.is_none() {
-        // What was computed before the first state is computed again.
-        dumps.iter().flat_map(|d| parts(d)).try_for_each(fs::remove_file).map_err(failed)?;
+    // What was computed before the first state is computed again.
+    let old = DUMPS.iter().flat_map(|name| parts(&folder.join(name)).collect::<Vec<_>>());
+    old.into_iter().try_for_each(fs::remove_file).map_err(failed)?;
+    let words = || format!("{}: has no whole state: the run begins again", folder.display());
+    Ok(Start { warning: (count > 0).then(words), ..fresh })
+}
+
+/// Refuses a folder that holds another deck than this, or dumps of one.
+///
+/// # Errors
+/// Where they differ.
+pub fn same(deck: &Deck, setup: &Setup, folder: &Path) -> Result<()> {
+    let failed = |error| LammpsError::Folder { folder: folder.display().to_string(), error };
+    let there = fs::read_to_string(folder.join(INPUT)).map_err(failed)?;
+    let other = |what: String| Err(LammpsError::OtherDeck { folder: folder.display().to_string(), what });
+    let mut lines = there.lines().zip(deck.input.lines());
+    if let Some((old, new)) = lines.find(|(old, new)| old != new) {
+        return other(format!("in its run.in, '{old}' stands where this run has '{new}'"));
     }
-    Ok(Start { state, number: parts(&dumps[0]).count() + 1 })
+    if there != deck.input {
+        return other("its run.in has another length".to_owned());
+    }
+    match deck.has_particles_of(setup, folder).map_err(failed)? {
+        true => Ok(()),
+        false => other("its particles.data has other grains".to_owned()),
+    }
+}
+
+/// Whether a deck in a folder has run there.
+pub fn has_run(folder: &Path) -> bool {
+    STATES.iter().chain(&DUMPS).any(|name| folder.join(name).exists())
 }
 
 /// The newest state that is whole.
@@ -92,40 +152,54 @@ fn newest(folder: &Path) -> io::Result<Option<&'static str>> {
 
 fn is_whole(state: &mut File) -> io::Result<bool> {
     let length = state.metadata()?.len();
-    let Some(from) = length.checked_sub(END.len() as u64) else { return Ok(false) };
+    let Some(from) = length.checked_sub(END.len() as u64 + 1) else { return Ok(false) };
     state.seek(SeekFrom::Start(from))?;
-    let mut end = [0; END.len()];
-    state.read_exact(&mut end)?;
-    Ok(end == END.as_bytes())
+    let mut end = String::new();
+    Ok(state.read_to_string(&mut end).is_ok() && end.trim_end_matches('\0') == END)
 }
 
-/// A dump on its way from LAMMPS, which is kept in a file, behind what earlier starts have left.
+/// A dump of a start while LAMMPS writes it, behind what earlier starts have left.
 ///
 /// # Errors
-/// Files that cannot be opened or made.
-pub fn kept<'a>(
-    dump: &Path,
+/// Files that cannot be opened.
+pub fn followed<'a>(
     start: &Start,
-    live: impl Read + Send + 'a,
+    name: &str,
+    ended: Arc<AtomicBool>,
     capacity: usize,
 ) -> io::Result<Parts<'a>> {
-    let mut all: Parts = if start.number > 1 { open(dump)? } else { Vec::new() };
-    let copy = Copy { live, file: File::create(part(dump, start.number))? };
-    all.push(Box::new(BufReader::with_capacity(capacity, copy)));
+    let dump = start.folder.join(name);
+    let mut all: Parts = if start.number > 1 { open(&dump)? } else { Vec::new() };
+    let follow = Follow { path: part(&dump, start.number), file: None, ended };
+    all.push(Box::new(BufReader::with_capacity(capacity, follow)));
     Ok(all)
 }
 
-/// What is read, written to a file as well.
-struct Copy<R> {
-    live: R,
-    file: File,
+/// A file that grows until its writer has ended.
+struct Follow {
+    path: PathBuf,
+    file: Option<File>,
+    ended: Arc<AtomicBool>,
 }
 
-impl<R: Read> Read for Copy<R> {
+impl Read for Follow {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        let n = self.live.read(bytes)?;
-        self.file.write_all(&bytes[..n])?;
-        Ok(n)
+        loop {
+            // Asked before the file is read: what is written until then is read.
+            let last = self.ended.load(SeqCst);
+            if self.file.is_none() {
+                self.file = match File::open(&self.path) {
+                    Ok(file) => Some(file),
+                    Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+                    Err(error) => return Err(error),
+                };
+            }
+            let n = self.file.as_mut().map_or(Ok(0), |file| file.read(bytes))?;
+            if n > 0 || last || bytes.is_empty() {
+                return Ok(n);
+            }
+            std::thread::sleep(LOOK);
+        }
     }
 }
 
@@ -140,11 +214,37 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let put = |name: &str, text: &[u8]| fs::write(folder.path().join(name), text).unwrap();
         assert_eq!(newest(folder.path()).unwrap(), None);
-        put("state_1", &[b"numbers", END.as_bytes()].concat());
-        std::thread::sleep(std::time::Duration::from_millis(20));
+        put("state_1", &[b"numbers", END.as_bytes(), &[0]].concat());
+        std::thread::sleep(Duration::from_millis(20));
         put("state_2", b"numb");
         assert_eq!(newest(folder.path()).unwrap(), Some("state_1"));
-        put("state_2", &[b"numbers", END.as_bytes()].concat());
+        put("state_2", &[b"numbers", END.as_bytes(), &[0]].concat());
         assert_eq!(newest(folder.path()).unwrap(), Some("state_2"));
+        // Only dumps of a deck have parts.
+        for name in ["frames.dump", "frames-2.dump", "heap.dump", "heap-2.dump"] {
+            put(name, b"");
+        }
+        let count = |name: &str| open(&folder.path().join(name)).unwrap().len();
+        assert_eq!([count("frames.dump"), count("heap.dump")], [2, 1]);
+    }
+
+    #[test]
+    fn a_file_is_followed_to_its_end() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, ended) = (folder.path().join("x"), Arc::new(AtomicBool::new(false)));
+        let mut follow = Follow { path: path.clone(), file: None, ended: ended.clone() };
+        let writer = std::thread::spawn(move || {
+            for k in 0..5 {
+                use std::io::Write;
+                std::thread::sleep(Duration::from_millis(15));
+                let mut file = File::options().create(true).append(true).open(&path).unwrap();
+                writeln!(file, "{k}").unwrap();
+            }
+            ended.store(true, SeqCst);
+        });
+        let mut text = String::new();
+        follow.read_to_string(&mut text).unwrap();
+        assert_eq!(text, "0\n1\n2\n3\n4\n");
+        writer.join().unwrap();
     }
 }

@@ -2,25 +2,27 @@
 
 use crate::arrivals::Arrival;
 use crate::data::number_of;
-use crate::deck::{FRAMES, ZONE};
-use crate::dump::{Ended, Frame, Frames, Parts};
+use crate::deck::{COLUMNS, FRAMES, ZONE};
+use crate::dump::{Block, Dump, Ended, Parts};
 use crate::error::{LammpsError, Result};
-use crate::folder::{self, Start};
+use crate::folder;
+use crate::loads::{self, Asked, Loads, Now, PAIRS, TOUCHES};
 use crate::outlet::{Found, Search};
-use crate::process::{Engine, Running};
+use crate::process::{Engine, Place, Running};
 use dem::setup::{Particle, Setup};
 use geom::{Shown, Vec3};
 use run::{Progress, RunFile, Schedule};
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::io::{BufReader, Write};
 use std::os::unix::process::ExitStatusExt;
-use std::path::Path;
 use std::process::ExitStatus;
 use std::sync::{Mutex, PoisonError};
 
 /// What is wrong with a dump that was cut off.
 const TORN: &str = "it ends inside a frame";
 
+/// The dumps of a deck, in the order of the pipes.
+pub const DUMPS: [&str; 4] = [FRAMES, ZONE, PAIRS, TOUCHES];
 /// Buffer of a pipe from LAMMPS.
 const BUFFER: usize = 1 << 18;
 
@@ -34,6 +36,7 @@ pub struct Job<'a> {
     /// Those that come in, by id.
     arrivals: &'a [Arrival],
     schedule: &'a Schedule,
+    asked: &'a Asked,
     /// Step of the last frame.
     pub last: Option<u64>,
     /// How many crossed a storage plane.
@@ -47,11 +50,22 @@ impl<'a> Job<'a> {
         setup: &'a Setup,
         arrivals: &'a [Arrival],
         schedule: &'a Schedule,
+        asked: &'a Asked,
         report: &'a mut dyn FnMut(&Progress),
     ) -> Job<'a> {
         let mut particles = setup.particles.clone();
         particles.sort_by_key(|p| p.id);
-        Job { setup, particles, there: Vec::new(), arrivals, schedule, last: None, crossings: 0, report }
+        Job {
+            setup,
+            particles,
+            there: Vec::new(),
+            arrivals,
+            schedule,
+            asked,
+            last: None,
+            crossings: 0,
+            report,
+        }
     }
 }
 
@@ -72,21 +86,22 @@ impl Job<'_> {
         &mut self,
         file: &mut RunFile<W>,
         engine: &Engine,
-        (folder, start): (&Path, Option<&Start>),
+        place: Place,
         stop: fn() -> bool,
     ) -> Result<Option<String>> {
-        let (running, pipes) = Running::start(engine, (folder, start), stop)?;
-        let mut dumps = Vec::new();
-        for (name, pipe) in [FRAMES, ZONE].into_iter().zip(pipes) {
-            dumps.push(match start {
-                None => Ok(vec![Box::new(BufReader::with_capacity(BUFFER, pipe)) as Box<_>]),
-                Some(start) => folder::kept(&folder.join(name), start, pipe, BUFFER),
-            });
+        let (running, pipes) = Running::start(engine, &place, stop)?;
+        let mut dumps: Vec<(&str, Parts)> = Vec::new();
+        for (name, pipe) in DUMPS.into_iter().zip(pipes) {
+            dumps.push((name, vec![Box::new(BufReader::with_capacity(BUFFER, pipe))]));
         }
-        let failed = |error| LammpsError::Deck { folder: folder.display().to_string(), error };
-        let zone = dumps.pop().filter(|_| !self.setup.outlets.is_empty()).transpose().map_err(failed)?;
-        let frames = dumps.pop().unwrap_or_else(|| Ok(Vec::new())).map_err(failed)?;
-        let read = self.read_then(file, frames, zone, |read| {
+        if let Place::Kept(start) = place {
+            for name in DUMPS.into_iter().filter(|name| self.has(name)) {
+                let parts = folder::followed(start, name, running.ended(), BUFFER);
+                let folder = || start.folder.display().to_string();
+                dumps.push((name, parts.map_err(|error| LammpsError::Folder { folder: folder(), error })?));
+            }
+        }
+        let read = self.read_then(file, dumps, |read| {
             if !matches!(read, Ok(Ended::Over)) {
                 running.abandon();
             }
@@ -106,27 +121,35 @@ impl Job<'_> {
         }
     }
 
-    /// Writes all frames, and the crossings in the samples near outlets.
+    /// Whether a dump of the deck belongs to this scene.
+    pub fn has(&self, dump: &str) -> bool {
+        match dump {
+            ZONE => !self.setup.outlets.is_empty(),
+            PAIRS => self.asked.pairs(),
+            TOUCHES => self.asked.touches(),
+            _ => true,
+        }
+    }
+
+    /// Writes all frames, what contacts bear, and the crossings in the samples near outlets, from dumps by their names.
     ///
     /// # Errors
     /// Frames of another scene, output that cannot be written.
-    pub fn read<W: Write>(
-        &mut self,
-        file: &mut RunFile<W>,
-        frames: Parts,
-        zone: Option<Parts>,
-    ) -> Result<Ended> {
-        self.read_then(file, frames, zone, |_| ())
+    pub fn read<W: Write>(&mut self, file: &mut RunFile<W>, dumps: Vec<(&str, Parts)>) -> Result<Ended> {
+        self.read_then(file, dumps, |_| ())
     }
 
     /// The same; `then` is called when the frames are over, and must see to it that the samples are.
     fn read_then<W: Write>(
         &mut self,
         file: &mut RunFile<W>,
-        frames: Parts,
-        zone: Option<Parts>,
+        dumps: Vec<(&str, Parts)>,
         then: impl FnOnce(&Result<Ended>),
     ) -> Result<Ended> {
+        let mut dumps: BTreeMap<&str, Parts> = dumps.into_iter().filter(|(name, _)| self.has(name)).collect();
+        let frames = Dump::new(dumps.remove(FRAMES).unwrap_or_default(), COLUMNS);
+        let zone = dumps.remove(ZONE);
+        let mut loads = Loads::new(self.asked.clone(), self.setup, [PAIRS, TOUCHES].map(|d| dumps.remove(d)));
         let found = Mutex::new(Found::default());
         let search = Search::new(self.setup, self.schedule.dt);
         std::thread::scope(|scope| {
@@ -139,7 +162,7 @@ impl Job<'_> {
             };
             let searching = zone.map(|zone| scope.spawn(move || search.read(zone, add)));
             let found = outlets.then_some(&found);
-            let read = self.frames(file, Frames::new(frames), found);
+            let read = self.frames(file, (frames, &mut loads), found);
             then(&read);
             if let Some(searching) = searching {
                 let _ = searching.join();
@@ -154,22 +177,46 @@ impl Job<'_> {
     fn frames<W: Write>(
         &mut self,
         file: &mut RunFile<W>,
-        mut frames: Frames,
+        (mut frames, loads): (Dump, &mut Loads),
         found: Option<&Mutex<Found>>,
     ) -> Result<Ended> {
         loop {
-            let frame = match frames.next_frame() {
+            let frame = match frames.next_block() {
                 Ok(frame) => frame,
                 Err(ended) => return Ok(ended),
             };
+            self.follows(frame.step)?;
             self.take(&frame)?;
             self.last = Some(frame.step);
             let time = frame.step as f64 * self.schedule.dt;
             self.enter(time);
+            let now = Now { setup: self.setup, step: frame.step, time, particles: &self.particles };
+            let contacts = match loads.at(&now) {
+                Ok(contacts) => contacts,
+                Err(ended) => return Ok(ended),
+            };
             found.map_or(Ok(()), |found| self.cross(file, found))?;
             file.frame(time, &self.there)?;
+            if self.asked.contacts {
+                file.contacts(time, &contacts)?;
+            }
+            if self.asked.walls {
+                file.wall_forces(time, &loads::on_walls(&contacts, self.setup, time))?;
+            }
             self.tell(file.frames, frame.step);
         }
+    }
+
+    /// Refuses a frame that does not follow the last one.
+    fn follows(&self, step: u64) -> Result<()> {
+        let next = self.last.map_or(0, |last| self.schedule.frame_after(last));
+        // Sums of LAMMPS may round to the step beside.
+        if step.abs_diff(next) <= 1 {
+            return Ok(());
+        }
+        Err(self.wrong(format!(
+            "the next frame is that of step {step}, and that of step {next} is missing: a file is cut off, or of another run"
+        )))
     }
 
     /// Writes the crossings that were found.
@@ -211,20 +258,21 @@ impl Job<'_> {
         self.there.extend(self.particles.iter().filter(|p| !later(p)));
     }
 
-    fn take(&mut self, frame: &Frame) -> Result<()> {
+    fn take(&mut self, frame: &Block) -> Result<()> {
         if !self.setup.outlets.is_empty() {
             // Those behind an outlet are taken out.
-            let numbers: HashSet<u64> = frame.atoms.iter().map(|atom| atom.0).collect();
+            let numbers: HashSet<u64> = frame.rows().map(|row| row[0] as u64).collect();
             self.particles.retain(|p| numbers.contains(&number_of(p.id)));
         }
-        if frame.atoms.len() != self.particles.len() {
-            let (found, all) = (frame.atoms.len(), self.particles.len());
+        if frame.len() != self.particles.len() {
+            let (found, all) = (frame.len(), self.particles.len());
             return Err(
                 self.wrong(format!("step {}: {found} atoms, and the scene has {all} particles", frame.step))
             );
         }
-        for (number, values) in &frame.atoms {
-            let found = self.particles.binary_search_by_key(number, |p| number_of(p.id));
+        for row in frame.rows() {
+            let (number, values) = (row[0] as u64, &row[1..]);
+            let found = self.particles.binary_search_by_key(&number, |p| number_of(p.id));
             let Ok(index) = found else {
                 return Err(
                     self.wrong(format!("step {}: atom {number} is no particle of the scene", frame.step))
@@ -237,10 +285,9 @@ impl Job<'_> {
                     frame.step
                 )));
             }
-            let [x, y, z, vx, vy, vz, wx, wy, wz] = *values;
+            let three = |k: usize| Vec3::new(values[k], values[k + 1], values[k + 2]);
             let p = &mut self.particles[index];
-            (p.position, p.velocity, p.spin) =
-                (Vec3::new(x, y, z), Vec3::new(vx, vy, vz), Vec3::new(wx, wy, wz));
+            (p.position, p.velocity, p.spin) = (three(0), three(3), three(6));
         }
         Ok(())
     }

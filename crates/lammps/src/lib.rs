@@ -6,7 +6,7 @@
 //!
 //! [`refusal`] lists what LAMMPS cannot do; [`law`] turns contact laws into coefficients of `pair_style granular` and `fix wall/gran`;
 //! [`deck`] is the text of a run, [`data`] its atoms; [`process`] starts LAMMPS and keeps its last words; [`dump`] reads frames while it
-//! runs, [`folder`] keeps what a later start goes on from, and [`outlet`] finds crossings in samples; [`job`] writes them as [`run::RunFile`]. Modules use those before them in this list.
+//! runs, [`folder`] keeps what a later start goes on from, [`outlet`] finds crossings in samples, [`loads`] what contacts bear; [`job`] writes them as [`run::RunFile`]. Modules use those before them in this list.
 //!
 //! Sources: the documentation of LAMMPS (`pair_style granular`, `fix wall/gran`, `fix wall/gran/region`, `fix move`, `dump custom`) and its
 //! source of 29 Sep 2021 and 22 Jul 2025, against which the conversions are tested. Uses `dem` for the setup's types, `run` for the file.
@@ -22,6 +22,7 @@ mod folder;
 mod grain;
 mod job;
 mod law;
+mod loads;
 mod motion;
 mod outlet;
 mod process;
@@ -31,10 +32,10 @@ mod types;
 mod version;
 mod wall;
 
-pub use deck::Deck;
+pub use deck::{Deck, FRAMES};
 pub use dump::Parts;
 pub use error::LammpsError;
-pub use folder::open;
+pub use folder::{Start, open};
 pub use law::Target;
 pub use process::Engine;
 pub use refusal::Refusal;

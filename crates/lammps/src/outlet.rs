@@ -7,7 +7,7 @@
 //! Behind the plane a grain moves freely and acts on all others, up to the exclusion plane; LAMMPS takes it out there.
 
 use crate::deck::{COLUMNS, ZONE};
-use crate::dump::{Ended, Frame, Frames, NUMBERS, Parts};
+use crate::dump::{Block, Dump, Ended, Parts};
 use crate::refusal::Refusal;
 use dem::setup::{Crossing, Particle, Setup, Zone, ZoneMotion, ZoneTest};
 use geom::Vec3;
@@ -102,9 +102,9 @@ impl Search {
 
     /// Reads samples to the end; `tell` gets what each adds.
     pub fn read(mut self, samples: Parts, tell: impl Fn(Found)) {
-        let mut frames = Frames::new(samples);
+        let mut frames = Dump::new(samples, COLUMNS);
         let wrong = loop {
-            match frames.next_frame() {
+            match frames.next_block() {
                 Ok(frame) => tell(self.take(&frame)),
                 Err(Ended::Over) => return,
                 Err(Ended::Torn) => break "it ends inside a frame".to_owned(),
@@ -114,31 +114,41 @@ impl Search {
         tell(Found { wrong: Some(wrong), ..Found::default() });
     }
 
-    fn take(&mut self, frame: &Frame) -> Found {
+    fn take(&mut self, frame: &Block) -> Found {
         let until = frame.step as f64 * self.dt;
         let from = self.last.replace(frame.step).unwrap_or(frame.step) as f64 * self.dt;
         let mut crossings = Vec::new();
-        for (number, now) in &frame.atoms {
-            let Some(before) = self.before.get(number) else { continue };
+        let rows = || frame.rows().filter_map(numbered);
+        for (number, now) in rows() {
+            let Some(before) = self.before.get(&number) else { continue };
             for (outlet, zone) in (0..).zip(&self.outlets) {
-                let found = self.particles.binary_search_by_key(number, |p| crate::data::number_of(p.id));
+                let found = self.particles.binary_search_by_key(&number, |p| crate::data::number_of(p.id));
                 let Ok(particle) = found.map(|index| &self.particles[index]) else { continue };
                 let ahead = if zone.test == ZoneTest::Lowest { particle.radius } else { 0.0 };
-                let [a, b] = [before, now].map(|v| {
+                let [a, b] = [before, &now].map(|v| {
                     let position = Vec3::new(v[0], v[1], v[2]);
                     zone.plane.normal.dot(&(position - zone.plane.point)) + ahead
                 });
                 if a < 0.0 && b >= 0.0 {
                     let share = a / (a - b);
                     let time = from + share * (until - from);
-                    crossings.push(crossing(time, outlet, between(particle, [before, now], share)));
+                    crossings.push(crossing(time, outlet, between(particle, [before, &now], share)));
                 }
             }
         }
         crossings.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.particle.id.cmp(&b.particle.id)));
-        self.before = frame.atoms.iter().copied().collect();
+        self.before = rows().collect();
         Found { crossings, until, wrong: None }
     }
+}
+
+/// Numbers of an atom after its own.
+const NUMBERS: usize = 9;
+
+/// The number of an atom, and its position, velocity and angular velocity.
+fn numbered(row: &[f64]) -> Option<(u64, [f64; NUMBERS])> {
+    let (number, values) = row.split_first()?;
+    Some((*number as u64, values.try_into().ok()?))
 }
 
 /// A particle at a share of the way between two samples.

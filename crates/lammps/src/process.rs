@@ -3,6 +3,7 @@
 use crate::deck::INPUT;
 use crate::error::{LammpsError, Result};
 use crate::folder::Start;
+use crate::job::DUMPS;
 use crate::version::Version;
 use rustix::process::{Pid, Signal};
 use std::collections::VecDeque;
@@ -72,35 +73,63 @@ pub struct Running {
     said: Arc<Mutex<VecDeque<String>>>,
     listeners: Vec<JoinHandle<()>>,
     abandoned: Arc<AtomicBool>,
+    ended: Arc<AtomicBool>,
+}
+
+/// Where LAMMPS works.
+#[derive(Clone, Copy)]
+pub enum Place<'a> {
+    /// In a folder that is gone with the run.
+    Passing(&'a Path),
+    /// In a folder that keeps what a later start goes on from.
+    Kept(&'a Start),
 }
 
 impl Running {
-    /// Starts the deck in a folder, from its beginning or from a state that is kept there; its frames and its samples near outlets come from the pipes. `stop` is asked now and then whether it is to end.
+    /// Whether it has ended, as it becomes true.
+    pub fn ended(&self) -> Arc<AtomicBool> {
+        self.ended.clone()
+    }
+
+    /// Starts the deck; in a folder that is gone with the run, its dumps come from pipes, in the order of [`DUMPS`]. `stop` is asked now and then whether it is to end.
     ///
     /// # Errors
     /// A program that cannot be started.
-    pub fn start(
-        engine: &Engine,
-        (folder, start): (&Path, Option<&Start>),
-        stop: fn() -> bool,
-    ) -> Result<(Running, [PipeReader; 2])> {
+    pub fn start(engine: &Engine, place: &Place, stop: fn() -> bool) -> Result<(Running, Vec<PipeReader>)> {
         let program = if engine.ranks > 1 { &engine.mpirun } else { &engine.lmp };
         let program = program.first().cloned().unwrap_or_default();
         let failed = |error| LammpsError::Start { program: program.clone(), error };
-        let (frames, to_frames) = std::io::pipe().map_err(failed)?;
-        let (zone, to_zone) = std::io::pipe().map_err(failed)?;
-        // LAMMPS opens the pipes by these names; no rank needs to inherit them.
-        let name = |pipe: &PipeWriter| format!("/proc/{}/fd/{}", std::process::id(), pipe.as_raw_fd());
         let mut command = engine.command();
-        command.args(["-in", INPUT, "-log", "log.lammps", "-var", "zone", &name(&to_zone)]);
-        match start {
-            None => drop(command.args(["-var", "keep", "0"])),
-            Some(start) => drop(start.state.map(|state| command.args(["-var", "state", state]))),
+        command.args(["-in", INPUT, "-log", "log.lammps"]);
+        let (folder, stdin) = match place {
+            Place::Passing(folder) => {
+                command.args(["-var", "keep", "0"]);
+                (*folder, Stdio::null())
+            }
+            Place::Kept(start) => {
+                command.args(start.state.iter().flat_map(|state| ["-var", "state", state]));
+                // It holds the lock as long as it lives, and reads nothing.
+                (start.folder.as_path(), Stdio::from(start.lock.try_clone().map_err(failed)?))
+            }
+        };
+        let mut pipes = Vec::new();
+        // The frames come last.
+        for dump in DUMPS.into_iter().rev() {
+            let to = match place {
+                Place::Kept(start) => start.dump(dump).display().to_string(),
+                Place::Passing(_) => {
+                    let pipe = std::io::pipe().map_err(failed)?;
+                    // LAMMPS opens the pipe by this name; no rank needs to inherit it.
+                    let name = format!("/proc/{}/fd/{}", std::process::id(), pipe.1.as_raw_fd());
+                    pipes.insert(0, pipe);
+                    name
+                }
+            };
+            command.args(["-var", dump.trim_end_matches(".dump"), &to]);
         }
-        command.args(["-var", "frames", &name(&to_frames)]);
         // A group of its own: all of it is ended, and an interrupt of the terminal comes to this program first.
         command.process_group(0);
-        command.current_dir(folder).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.current_dir(folder).stdin(stdin).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().map_err(failed)?;
         let said = Arc::new(Mutex::new(VecDeque::new()));
         let mut listeners = Vec::new();
@@ -115,8 +144,17 @@ impl Running {
             let abandoned = abandoned.clone();
             move || stop() || abandoned.load(SeqCst)
         };
-        let watcher = std::thread::spawn(move || watch(child, [to_frames, to_zone], ends));
-        Ok((Running { watcher, said, listeners, abandoned }, [frames, zone]))
+        let (readers, writers): (Vec<_>, Vec<_>) = pipes.into_iter().unzip();
+        let ended = Arc::new(AtomicBool::new(false));
+        let watcher = {
+            let ended = ended.clone();
+            std::thread::spawn(move || {
+                let status = watch(child, writers, ends);
+                ended.store(true, SeqCst);
+                status
+            })
+        };
+        Ok((Running { watcher, said, listeners, abandoned, ended }, readers))
     }
 
     /// Ends it: its frames are no longer read.
@@ -138,7 +176,7 @@ impl Running {
 }
 
 /// Waits for the end of the process, and then closes the pipes, so that their readers see the end.
-fn watch(mut child: Child, pipes: [PipeWriter; 2], stop: impl Fn() -> bool) -> std::io::Result<ExitStatus> {
+fn watch(mut child: Child, pipes: Vec<PipeWriter>, stop: impl Fn() -> bool) -> std::io::Result<ExitStatus> {
     let mut asked: Option<Instant> = None;
     let status = loop {
         if let Some(status) = child.try_wait()? {

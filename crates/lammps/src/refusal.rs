@@ -79,13 +79,6 @@ pub fn leavable(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
         (keys.sleep.is_some(), "sleep", "particles of LAMMPS do not sleep", "leave it out"),
         (keys.output.energy, "output.energy", ledger, "leave it out"),
         (keys.guards.energy.is_some(), "guards.energy", ledger, "leave it out"),
-        (keys.output.contacts, "output.contacts", "contacts are not read back from LAMMPS", "leave it out"),
-        (
-            keys.output.wall_forces == Some(true),
-            "output.wall_forces",
-            "fix wall/gran gives no force on a wall",
-            "leave it out",
-        ),
         (
             setup.precision != Precision::Double,
             "precision",

@@ -4,10 +4,10 @@ use crate::arrivals::{self, Arrival};
 use crate::deck::{Deck, Source};
 use crate::dump::Parts;
 use crate::error::{LammpsError, Result};
-use crate::folder;
-use crate::job::Job;
+use crate::folder::{self, Start};
+use crate::job::{DUMPS, Job};
 use crate::law::Target;
-use crate::process::Engine;
+use crate::process::{Engine, Place};
 use crate::refusal::Refusal;
 use dem::setup::Setup;
 use run::{Progress, RunError, RunFile, Schedule};
@@ -31,9 +31,9 @@ pub struct Settings<W> {
 /// Where frames come from.
 pub enum Origin<'a> {
     /// LAMMPS, which is started; in a folder that keeps its states, if there is one.
-    Engine(&'a Engine, Option<&'a Path>),
-    /// A dump that it wrote before, and that of the samples near outlets, where the scene has any.
-    Dump(Parts<'a>, Option<Parts<'a>>),
+    Engine(&'a Engine, Option<&'a Start>),
+    /// The dumps of a deck that has run before, by their names.
+    Dumps(Vec<(&'static str, Parts<'a>)>),
 }
 
 /// What was done.
@@ -77,11 +77,29 @@ impl Prepared {
         self.deck.bent.iter().map(one).collect()
     }
 
-    /// Writes the deck into a folder.
+    /// The dumps that a run of it leaves, apart from the frames.
+    pub fn dumps(&self) -> impl Iterator<Item = &'static str> {
+        let asked = &self.deck.asked;
+        let has = [!self.setup.outlets.is_empty(), asked.pairs(), asked.touches()];
+        DUMPS[1..].iter().zip(has).filter(|dump| dump.1).map(|dump| *dump.0)
+    }
+
+    /// Readies a folder that keeps what a later start goes on from.
     ///
     /// # Errors
-    /// A folder that cannot be written to.
+    /// A folder of another run, one where another process works, or one that cannot be used.
+    pub fn start_in(&self, folder: &Path) -> Result<Start> {
+        folder::ready(&self.deck, &self.setup, folder)
+    }
+
+    /// Writes the deck into a folder; into one where a deck has run, only if it is the same.
+    ///
+    /// # Errors
+    /// A folder of another run, or one that cannot be written to.
     pub fn write(&self, folder: &Path) -> Result<()> {
+        if folder::has_run(folder) {
+            return folder::same(&self.deck, &self.setup, folder);
+        }
         self.deck.write(&self.setup, folder)
     }
 }
@@ -117,19 +135,18 @@ pub fn run<W: Write>(
     let mut file = RunFile::begin(scene, plan, schedule, out, &settings.provenance, settings.how)?;
     file.note(0.0, "computed by LAMMPS; forces are sampled at instants, and the file has no checkpoint")?;
     prepared.warnings().iter().try_for_each(|warning| file.note(0.0, warning))?;
-    let mut job = Job::new(setup, arrivals, schedule, report);
+    let mut job = Job::new(setup, arrivals, schedule, &prepared.deck.asked, report);
     let reason = match origin {
-        Origin::Dump(input, zone) => {
-            let ended = job.read(&mut file, input, zone)?;
+        Origin::Dumps(dumps) => {
+            let ended = job.read(&mut file, dumps)?;
             job.whole(ended)?;
             None
         }
-        Origin::Engine(engine, Some(folder)) => {
-            let start = folder::ready(&prepared.deck, setup, folder)?;
+        Origin::Engine(engine, Some(start)) => {
             if start.number > 1 {
                 file.note(0.0, &format!("LAMMPS was started {} times", start.number))?;
             }
-            job.live(&mut file, engine, (folder, Some(&start)), settings.stop)?
+            job.live(&mut file, engine, Place::Kept(start), settings.stop)?
         }
         Origin::Engine(engine, None) => {
             let folder = tempfile::tempdir().map_err(|error| LammpsError::Deck {
@@ -137,7 +154,7 @@ pub fn run<W: Write>(
                 error,
             })?;
             prepared.write(folder.path())?;
-            job.live(&mut file, engine, (folder.path(), None), settings.stop)?
+            job.live(&mut file, engine, Place::Passing(folder.path()), settings.stop)?
         }
     };
     let step = job.last.unwrap_or(0);

@@ -14,20 +14,20 @@ fn three(v: &Vec3) -> String {
     format!("{:?} {:?} {:?}", v.x, v.y, v.z)
 }
 
-/// Commands of all walls.
+/// Commands of all walls; `touches`: planes tell what they bear.
 ///
 /// # Errors
 /// What LAMMPS cannot do, all of it.
 pub fn commands(
     setup: &Setup,
     types: &Types,
-    target: Target,
+    (target, touches): (Target, bool),
     bent: &mut Vec<Refusal>,
 ) -> Result<String, Vec<Refusal>> {
     let (mut text, mut refused, mut still) = (String::new(), Vec::new(), Vec::new());
     for (index, wall) in setup.walls.iter().enumerate() {
         let one = match &wall.shape {
-            WallShape::Plane(p) => plane(setup, types, target, (index, wall, p), bent),
+            WallShape::Plane(p) => plane(setup, types, (target, touches), (index, wall, p), bent),
             WallShape::Spheres(_) => spheres(types, (index, wall), &mut still),
             // Refused with all other walls of its kind.
             WallShape::Mesh(_) => Ok(String::new()),
@@ -69,7 +69,7 @@ fn variables(name: &str, formulas: &[String; 3]) -> String {
 fn plane(
     setup: &Setup,
     types: &Types,
-    target: Target,
+    (target, touches): (Target, bool),
     (index, wall, plane): (usize, &Wall, &Plane),
     bent: &mut Vec<Refusal>,
 ) -> Result<String, Refusal> {
@@ -103,7 +103,8 @@ fn plane(
         let words = coefficients(law, elastic, Types::at_plane(setup, grain), target, bent)?;
         let _ = writeln!(
             text,
-            "fix wall{index}_{number} type{number} wall/gran/region granular {words} region wall{index}"
+            "fix wall{index}_{number} type{number} wall/gran/region granular {words} region wall{index}{}",
+            if touches { " contacts" } else { "" }
         );
     }
     Ok(text)

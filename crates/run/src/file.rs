@@ -5,6 +5,7 @@ use crate::frames::{self, ParticleRows, WallHead};
 use crate::schedule::Schedule;
 use crate::start::{Head, in_file};
 use dem::setup::{Crossing, Particle, Wall, WallShape};
+use dem::{ContactRecord, WallForce};
 use geom::Vec3;
 use record::{FRAME, LogMessage, Watermark, json, nanoseconds, topic};
 use scene::keys::Precision;
@@ -92,6 +93,26 @@ impl<W: Write> RunFile<W> {
         let rows = ParticleRows { all: particles, precision, clumps: None, clusters };
         self.writer.rows(topic::PARTICLES, nanoseconds(time), FRAME, &rows)?;
         self.frames += 1;
+        Ok(self.writer.flush_chunk()?)
+    }
+
+    /// Writes the contacts of the last frame.
+    ///
+    /// # Errors
+    /// A write that fails.
+    pub fn contacts(&mut self, time: f64, contacts: &[ContactRecord]) -> Result<()> {
+        let table = frames::contacts(contacts, self.precision);
+        self.writer.points(topic::CONTACTS, nanoseconds(time), FRAME, table)?;
+        Ok(self.writer.flush_chunk()?)
+    }
+
+    /// Writes the forces on walls at the last frame.
+    ///
+    /// # Errors
+    /// A write that fails.
+    pub fn wall_forces(&mut self, time: f64, forces: &[WallForce]) -> Result<()> {
+        let message = frames::wall_forces(time, forces, &self.heads);
+        self.writer.bytes(topic::WALL_FORCES, "json", nanoseconds(time), json(&message).as_bytes())?;
         Ok(self.writer.flush_chunk()?)
     }
 

@@ -60,6 +60,13 @@ impl Schedule {
         step == self.last || self.hits(step, self.every)
     }
 
+    /// The step of the frame after that of `step`; the last step after that.
+    pub fn frame_after(&self, step: u64) -> u64 {
+        let k = (step as f64 * self.dt / self.every).round();
+        let next = [k, k + 1.0, k + 2.0].into_iter().map(|k| nearest(k * self.every, self.dt));
+        next.into_iter().find(|next| *next > step).unwrap_or(self.last).min(self.last)
+    }
+
     /// Whether a checkpoint is; the last step always is one.
     pub fn is_checkpoint(&self, step: u64) -> bool {
         step == self.last || (step > 0 && self.checkpoint.is_some_and(|every| self.hits(step, every)))

@@ -105,7 +105,6 @@ fn everything_that_lammps_lacks_is_refused_by_name() {
         ),
         (&["--set", "contact.0.rolling_resistance=0.1"], "sizes of 'glass'", "single diameters"),
         (&["--set", "output.energy=true"], "output.energy", "leave it out"),
-        (&["--set", "output.contacts=true"], "output.contacts", "leave it out"),
         (&["--set", "time.until_kinetic=1e-9"], "time.until_kinetic", "leave it out"),
         (&["--set", "local_damping.factor=0.7"], "local_damping", "restitution"),
         (&["--set", "precision=\"f32\""], "precision", "leave it out"),

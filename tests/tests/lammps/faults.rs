@@ -82,9 +82,11 @@ fn a_dump_that_breaks_off_is_an_error() {
 
 #[test]
 fn wrong_frames_are_errors() {
-    fails("frame 20 | sed 's/^7 0.1/7 nan/'", &["particle 6 has the value NaN"]);
-    fails("frame 20 | sed 's/^7 0.1/99 0.1/'", &["atom 99 is no particle of the scene"]);
-    fails("frame 20 | sed 's/^40$/39/' | head -n -1", &["39 atoms, and the scene has 40 particles"]);
+    // The step of the second frame is 127.
+    fails("frame 20", &["the next frame is that of step 20, and that of step 127 is missing"]);
+    fails("frame 127 | sed 's/^7 0.1/7 nan/'", &["particle 6 has the value NaN"]);
+    fails("frame 127 | sed 's/^7 0.1/99 0.1/'", &["atom 99 is no particle of the scene"]);
+    fails("frame 127 | sed 's/^40$/39/' | head -n -1", &["39 atoms, and the scene has 40 particles"]);
     fails("frame 20 | sed 's/omegaz/omegaz type/'", &["its columns are"]);
 }
 

@@ -5,6 +5,7 @@
 mod contacts;
 mod decks;
 mod faults;
+mod loads;
 mod many;
 mod resume;
 

@@ -81,6 +81,12 @@ fn wait_for(path: &Path) {
     }
 }
 
+/// Whether another process works in the folder: LAMMPS is not started then.
+fn in_use(path: &Path) -> bool {
+    let lock = fs::File::options().append(true).open(path.join("kept/lock")).unwrap();
+    lock.try_lock().is_err()
+}
+
 #[test]
 fn a_killed_run_goes_on_from_its_folder() {
     if !lmp() {
@@ -100,8 +106,12 @@ fn a_killed_run_goes_on_from_its_folder() {
         wait_for(&path.join("kept").join(state));
         child.kill().unwrap();
         child.wait().unwrap();
-        // LAMMPS ends when its frames are not read.
-        std::thread::sleep(Duration::from_millis(300));
+        // The LAMMPS of a killed one ends with its next line; until then it holds the folder.
+        let since = Instant::now();
+        while in_use(path) {
+            assert!(since.elapsed() < Duration::from_secs(60));
+            std::thread::sleep(Duration::from_millis(20));
+        }
         assert!(!path.join("again.mcap").exists());
     }
     let report = ["s.toml", "-q", "--dir", "kept", "--report", "r.json", "-o", "again.mcap"];
@@ -110,6 +120,16 @@ fn a_killed_run_goes_on_from_its_folder() {
     assert!(report.contains("\"crossings\": 1,"), "samples of all starts: {report}");
     assert!(path.join("kept/frames-3.dump").exists(), "it was started three times");
     alike(path, ["whole.mcap", "again.mcap"]);
+    // A finished run is read again; two at a time are refused.
+    let done = succeed(path, "dem-lammps", &["s.toml", "--dir", "kept", "-o", "third.mcap"]);
+    assert!(done.stderr.contains("kept: all steps are done: its frames are read"), "{}", done.stderr);
+    assert!(!path.join("kept/frames-4.dump").exists());
+    alike(path, ["again.mcap", "third.mcap"]);
+    let lock = fs::File::options().append(true).open(path.join("kept/lock")).unwrap();
+    lock.lock().unwrap();
+    let busy = tool(path, "dem-lammps", &["s.toml", "--dir", "kept", "-o", "x.mcap"]);
+    assert!(busy.code == 1 && busy.stderr.contains("another dem-lammps works there"), "{}", busy.stderr);
+    drop(lock);
     // The folder is read like a deck that ran elsewhere; it belongs to this scene alone.
     succeed(path, "dem-lammps", &["s.toml", "-q", "--read-dump", "kept/frames.dump", "-o", "read.mcap"]);
     alike(path, ["again.mcap", "read.mcap"]);
@@ -118,7 +138,48 @@ fn a_killed_run_goes_on_from_its_folder() {
         "dem-lammps",
         &["s.toml", "--set", "contact.0.restitution=0.6", "--dir", "kept", "-o", "x.mcap"],
     );
-    assert!(other.code == 1 && other.stderr.contains("kept: holds something else"), "{}", other.stderr);
+    assert!(
+        other.code == 1 && other.stderr.contains("kept: holds another run: in its run.in, 'pair_coeff"),
+        "{}",
+        other.stderr
+    );
+}
+
+/// Files that were cut off, and decks that are overwritten, are errors, not shorter or other runs.
+#[test]
+fn nothing_is_lost_without_a_word() {
+    if !lmp() {
+        return;
+    }
+    let folder = impacts();
+    let path = folder.path();
+    let short = ["s.toml", "--until", "2e-4", "--dir", "kept", "-o", "run.mcap"];
+    succeed(path, "dem-lammps", &short);
+    let frames = path.join("kept/frames.dump");
+    let text = fs::read_to_string(&frames).unwrap();
+    let third = text.match_indices("ITEM: TIMESTEP").nth(3).unwrap().0;
+    let whole = text.len();
+    for (cut, rest) in [(third, ""), (0, &text[third..])] {
+        fs::write(&frames, [&text[..cut], rest].concat()).unwrap();
+        let done = tool(path, "dem-lammps", &short);
+        assert!(done.code == 1 && whole > 0, "{}", done.stderr);
+        assert!(
+            done.stderr.contains("is missing") || done.stderr.contains("it ends there"),
+            "{}",
+            done.stderr
+        );
+    }
+    // States that are gone: it begins again, and says so.
+    fs::remove_file(path.join("kept/finished")).unwrap();
+    ["state_1", "state_2"].iter().for_each(|name| drop(fs::write(path.join("kept").join(name), "torn")));
+    let again = succeed(path, "dem-lammps", &short);
+    assert!(again.stderr.contains("has no whole state: the run begins again"), "{}", again.stderr);
+    assert_eq!(fs::read_to_string(&frames).unwrap(), text);
+    // A deck is not written over one that has run.
+    let deck = ["s.toml", "--until", "2e-4", "--write-deck", "kept"];
+    succeed(path, "dem-lammps", &deck);
+    let other = tool(path, "dem-lammps", &["s.toml", "--write-deck", "kept"]);
+    assert!(other.code == 1 && other.stderr.contains("kept: holds another run"), "{}", other.stderr);
 }
 
 /// A script plays Slurm's `srun`: it runs LAMMPS, and ends it when a state is whole, as a time limit does.

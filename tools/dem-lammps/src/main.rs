@@ -6,7 +6,7 @@ mod kept;
 use anyhow::Context;
 use args::Args;
 use cli::{Report, Source, Stopped};
-use lammps::{Engine, LammpsError, Origin, Prepared, Settings, Target, Version};
+use lammps::{Engine, LammpsError, Origin, Prepared, Settings, Start, Target, Version};
 use run::{Progress, RunError};
 use scene::{Input, Plan, Scene, SceneError};
 use std::io::BufReader;
@@ -95,23 +95,42 @@ fn written(error: LammpsError, args: &Args) -> anyhow::Error {
     }
 }
 
-/// A dump, and that of the samples near outlets, which lies beside it.
-fn dump<'a>(source: &Source, plan: &Plan) -> anyhow::Result<Origin<'a>> {
+/// A dump of frames, and the others, which lie beside it.
+fn dumps<'a>(source: &Source, prepared: &Prepared) -> anyhow::Result<Origin<'a>> {
+    let open =
+        |path: &Path| lammps::open(path).with_context(|| format!("{}: cannot open it", path.display()));
     let frames = match source.path() {
-        Some(path) => lammps::open(path).with_context(|| format!("{}: cannot open it", path.display()))?,
+        Some(path) => open(path)?,
         None => vec![Box::new(BufReader::new(source.open()?)) as Box<_>],
     };
-    if plan.setup.outlets.is_empty() {
-        return Ok(Origin::Dump(frames, None));
+    let mut all = vec![(lammps::FRAMES, frames)];
+    for name in prepared.dumps() {
+        let Some(path) = source.path() else {
+            return Err(cli::usage(format!(
+                "--read-dump -: the scene needs {name}, too: name the file beside which it lies"
+            )));
+        };
+        all.push((name, open(&path.with_file_name(name))?));
     }
-    let Some(path) = source.path() else {
-        return Err(cli::usage(
-            "--read-dump -: the scene has outlets: name the file, beside which zone.dump lies",
-        ));
-    };
-    let path = path.with_file_name("zone.dump");
-    let zone = lammps::open(&path).with_context(|| format!("{}: cannot open it", path.display()))?;
-    Ok(Origin::Dump(frames, Some(zone)))
+    Ok(Origin::Dumps(all))
+}
+
+/// Says how a run in a folder goes on.
+fn told(start: &Start) {
+    if let Some(words) = &start.warning {
+        cli::warn(words);
+    }
+    let folder = start.folder.display();
+    match start.state {
+        _ if cli::quiet() => {}
+        _ if start.finished => {
+            cli::say(&format!("dem-lammps: {folder}: all steps are done: its frames are read"))
+        }
+        Some(state) => {
+            cli::say(&format!("dem-lammps: {folder}: goes on from {state}, start {}", start.number))
+        }
+        None => {}
+    }
 }
 
 fn simulate(
@@ -127,9 +146,14 @@ fn simulate(
     cli::stop_in_order();
     let settings =
         Settings { provenance: cli::provenance(plan.inputs.clone()), how, stop: cli::stop_requested };
-    let origin = match &args.read_dump {
-        Some(source) => dump(source, plan)?,
-        None => Origin::Engine(engine, args.dir.as_deref()),
+    let start = args.dir.as_deref().map(|folder| prepared.start_in(folder)).transpose()?;
+    start.iter().for_each(told);
+    let origin = match (&args.read_dump, &start) {
+        (Some(source), _) => dumps(source, prepared)?,
+        (None, Some(start)) if start.finished => {
+            dumps(&Source::File(start.folder.join(lammps::FRAMES)), prepared)?
+        }
+        (None, start) => Origin::Engine(engine, start.as_ref()),
     };
     let bar = (!args.progress).then(|| cli::Progress::new("run", BAR as u64));
     let mut saved = 0.0;
