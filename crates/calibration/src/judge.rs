@@ -163,7 +163,9 @@ fn finding(recipe: &Recipe, end: &StepEnd, of: (usize, usize), sensitivities: &[
         best: p.value(end.samples.best.z[at]),
         prior: prior.map(|z| p.value(z)),
         width,
-        determined: width < DETERMINED,
+        // Also in the region that an earlier step has left, the data have to tell something.
+        determined: width < DETERMINED
+            && (ends[1] - ends[0]) / (end.fitted.region.width(at) * recipe.settings.interval) < DETERMINED,
         influence: sensitivities
             .iter()
             .filter(|s| s.step == end.fitted.step.name)
@@ -174,7 +176,7 @@ fn finding(recipe: &Recipe, end: &StepEnd, of: (usize, usize), sensitivities: &[
             .fitted
             .step
             .within
-            .filter(|_| end.fitted.region.cuts(at, ends))
+            .filter(|_| end.fitted.region.cuts(at, &values))
             .map(|w| recipe.steps[w].name.clone()),
     }
 }

@@ -21,20 +21,23 @@ fn found(
     toml: &str,
     data: &[&str],
 ) -> Result<(Judged, Vec<calibration::Next>), CalibrateError> {
+    judged(folder, toml, data, true)
+}
+
+/// The same; `candidates`: all tests are run in the last step.
+fn judged(
+    folder: &Path,
+    toml: &str,
+    data: &[&str],
+    candidates: bool,
+) -> Result<(Judged, Vec<calibration::Next>), CalibrateError> {
     let file = folder.join("r.toml");
     fs::write(&file, toml).unwrap();
     let data = data.iter().map(|d| (*d).to_owned()).collect();
     let recipe = recipe::read(&file, &data)?;
     let dir = folder.join("trials");
-    let session = Session {
-        recipe: &recipe,
-        dir,
-        jobs: 2,
-        stop: || false,
-        watch: &Nobody,
-        list: false,
-        candidates: true,
-    };
+    let session =
+        Session { recipe: &recipe, dir, jobs: 2, stop: || false, watch: &Nobody, list: false, candidates };
     match session.run()? {
         Standing::Open(_) => panic!("nothing is listed"),
         Standing::Done { tried, steps } => {
@@ -205,7 +208,11 @@ fn small_specimens_say_where_large_ones_look_and_a_step_runs_its_own_tests() {
     let folder = TempDir::new().unwrap();
     let rows: String = (0..=10).map(|k| format!("{k},{}\n", 3.0 + 2.0 * f64::from(k))).collect();
     fs::write(folder.path().join("lab.csv"), format!("x,y\n{rows}")).unwrap();
-    let (judged, _) = found(folder.path(), &specimens(0.5, "within = \"small\"\n"), &[]).unwrap();
+    let run = |toml: &str| {
+        let _ = fs::remove_dir_all(folder.path().join("trials"));
+        judged(folder.path(), toml, &[], false).unwrap().0
+    };
+    let judged = run(&specimens(0.5, "within = \"small\"\n"));
     for (f, truth) in judged.findings.iter().zip([3.0, 2.0]) {
         assert!((f.value - truth).abs() < 0.1 * truth && f.low < truth && truth < f.high, "{f:?}");
         assert!(f.step == "large" && f.cut_by.is_none(), "{f:?}");
@@ -222,12 +229,16 @@ fn small_specimens_say_where_large_ones_look_and_a_step_runs_its_own_tests() {
     };
     assert!(spread("small", 7) > 8.0 && spread("large", 7) < 3.0, "{trials}");
     // Small specimens that mislead: said, not hidden.
-    let _ = fs::remove_dir_all(folder.path().join("trials"));
-    let (judged, _) = found(folder.path(), &specimens(20.0, "within = \"small\"\n"), &[]).unwrap();
+    let judged = run(&specimens(20.0, "within = \"small\"\n"));
     assert_eq!(judged.findings[0].cut_by.as_deref(), Some("small"), "{judged:?}");
     let warnings = calibration::words::warnings(&judged);
     assert!(
         warnings.iter().any(|w| w.contains("reaches the end of what step 'small' has left")),
         "{warnings:?}"
     );
+    // Large specimens that tell nothing of b: what small ones have left of it is no finding of the second step.
+    let flat = specimens(0.5, "within = \"small\"\n").replace("k * {b}", "k * ({size} < 9 ? {b} : 2)");
+    let judged = run(&flat);
+    assert!(judged.findings[0].determined && !judged.findings[1].determined, "{judged:?}");
+    assert_eq!(judged.findings[1].cut_by.as_deref(), Some("small"));
 }

@@ -110,6 +110,24 @@ fn recipes_are_refused_with_place_and_cure() {
             "step 'large': nothing fills the blank {n} of test 'sized': add with = { n = … }",
         ),
         (
+            "data = \"lab.csv\"",
+            "data = \"lab.csv\"\n[[test]]\nname = \"plain\"\ncommand = \"model {mu}\"\nvalue = 1\ndeviation = 1\n\
+             [[step]]\nname = \"s\"\nfit = \"young\"\nto = [\"plain\"]\n",
+            "step 's' fits 'young', and no test that it fits to has the blank {young}",
+        ),
+        (
+            "data = \"lab.csv\"",
+            "data = \"lab.csv\"\n[[test]]\nname = \"sized\"\ncommand = \"model {mu} {n}\"\nvalue = 1\ndeviation = 1\n\
+             [[step]]\nname = \"s\"\nfit = \"mu\"\nto = [\"shear\"]\nwith = { n = 3 }\n",
+            "step 's': with: 'n' changes nothing: no test that it fits to has the blank {n}",
+        ),
+        (
+            "data = \"lab.csv\"",
+            "data = \"lab.csv\"\n[[test]]\nname = \"sized\"\ncommand = \"model {mu} {n}\"\nvalue = 1\ndeviation = 1\n\
+             [[step]]\nname = \"s\"\nfit = \"mu\"\nwith = { n = \"2 mm\" }\n",
+            "with: n = \"2 mm\": a command gets it as it is: give one word",
+        ),
+        (
             "[[test]]",
             "[[step]]\nname = \"s\"\nfit = \"mu\"\nwithin = \"s\"\n[[test]]",
             "within: no step 's' comes before",

@@ -62,7 +62,10 @@ pub(crate) fn set_friction(contact: &mut Table, friction: f64) {
 
 /// Raises the restitution of a `[[contact]]` to a least value; one with a dashpot of its own keeps it.
 pub(crate) fn raise_restitution(contact: &mut Table, least: f64) {
-    let own = contact.get("restitution").and_then(|r| r.as_float().or(r.as_integer().map(|i| i as f64)));
+    let own = contact.get("restitution").and_then(|r| {
+        let text = r.as_str().and_then(|text| geom::units::parse(text, "").ok());
+        r.as_float().or(r.as_integer().map(|i| i as f64)).or(text)
+    });
     if own.is_some_and(|own| own < least) {
         contact.insert("restitution", toml_edit::value(least));
     }
@@ -80,6 +83,21 @@ fn plain(table: &Table) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_low_restitution_is_raised() {
+        let raised = |given: &str| {
+            let mut scene = Composition::new(format!("[[contact]]\n{given}\n").parse().unwrap());
+            scene.entries("contact").for_each(|contact| raise_restitution(contact, 0.9));
+            scene.text()
+        };
+        for low in ["restitution = 0.2", "restitution = 0", "restitution = \"20 %\""] {
+            assert!(raised(low).contains("restitution = 0.9"), "{low}");
+        }
+        for kept in ["restitution = 0.95", "normal_damping = 3"] {
+            assert!(raised(kept).contains(kept) && !raised(kept).contains("0.9\n"), "{kept}");
+        }
+    }
 
     #[test]
     fn walls_have_the_contacts_of_the_grains() {

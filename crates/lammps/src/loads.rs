@@ -38,6 +38,8 @@ pub struct Asked {
     /// The fixes of planes: wall, and type of the grains.
     fixes: Vec<(usize, usize)>,
     spheres: bool,
+    /// Whether grains bear a force that do not touch: the necks of JKR.
+    necks: bool,
 }
 
 impl Asked {
@@ -47,6 +49,7 @@ impl Asked {
             contacts: keys.output.contacts,
             walls: keys.output.wall_forces == Some(true),
             fixes: at_planes(setup, types).collect(),
+            necks: setup.contacts.iter().any(|law| law.model("law") == Some("jkr")),
             spheres: setup.walls.iter().any(|w| matches!(w.shape, WallShape::Spheres(_))),
         }
     }
@@ -73,10 +76,11 @@ impl Asked {
         let mut text = String::new();
         let how = "every v_next first ${first} flush yes format float %.17g";
         if self.pairs() {
+            let reach = if self.necks { "type" } else { "radius" };
             let _ = write!(
                 text,
-                "\n# pairs that touch\ncompute ends all property/local patom1 patom2 cutoff radius\n\
-                 compute loads all pair/local fx fy fz p1 p2 p3 cutoff radius\nvariable pairs index {PAIRS}\n\
+                "\n# pairs that touch\ncompute ends all property/local patom1 patom2 cutoff {reach}\n\
+                 compute loads all pair/local fx fy fz p1 p2 p3 cutoff {reach}\nvariable pairs index {PAIRS}\n\
                  dump pairs all local 1 ${{pairs}} {OF_PAIRS}\ndump_modify pairs {how}\n"
             );
         }
@@ -175,6 +179,10 @@ impl<'a> Loads<'a> {
     fn pairs(&self, pairs: &Block, now: &Now, all: &mut Vec<ContactRecord>) -> Result<(), Ended> {
         for row in pairs.rows() {
             let force = Vec3::new(row[2] + row[5], row[3] + row[6], row[4] + row[7]);
+            if self.asked.necks && force == Vec3::zeros() {
+                // Near enough for a neck, but there is none.
+                continue;
+            }
             let (mut ends, mut force) = ([row[0] as u64, row[1] as u64], force);
             if ends[0] >= self.first {
                 // The force on the grain is wanted.

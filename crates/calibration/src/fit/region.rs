@@ -8,8 +8,8 @@ const TAIL: f64 = 0.005;
 const ROOM: f64 = 0.5;
 /// Least width [–].
 const LEAST: f64 = 0.1;
-/// An interval that comes this close to an end reaches it, over the width.
-const NEAR: f64 = 0.03;
+/// Outer part of the box at each end, over its width, and the share of the samples that an even posterior has there: more than half of it reach the end.
+const OUTER: f64 = 0.05;
 /// Digits of its ends.
 const DIGITS: f64 = 1e4;
 
@@ -50,11 +50,20 @@ impl Region {
         self.0.iter().zip(z).map(of).collect()
     }
 
-    /// Whether an interval of a parameter reaches an end that is not one of its bounds.
-    pub fn cuts(&self, at: usize, interval: [f64; 2]) -> bool {
+    /// Whether samples of a parameter reach an end that is not one of its bounds.
+    pub fn cuts(&self, at: usize, sorted: &[f64]) -> bool {
         let [low, high] = self.0[at];
-        let near = NEAR * (high - low);
-        low > 0.0 && interval[0] < low + near || high < 1.0 && interval[1] > high - near
+        let outer = OUTER * (high - low);
+        let share = |n: usize| n as f64 / sorted.len() as f64;
+        let below = share(sorted.partition_point(|z| *z < low + outer));
+        let above = 1.0 - share(sorted.partition_point(|z| *z <= high - outer));
+        low > 0.0 && below > 0.5 * OUTER || high < 1.0 && above > 0.5 * OUTER
+    }
+
+    /// Width of a parameter's box.
+    pub fn width(&self, at: usize) -> f64 {
+        let [low, high] = self.0[at];
+        high - low
     }
 }
 
@@ -73,7 +82,11 @@ mod tests {
         assert_eq!(region.at(&[0.5, 0.5, 0.5]), [0.5, 0.5, 0.95]);
         assert!((region.cube(&[0.5, 0.25, 0.95]).unwrap()[2] - 0.5).abs() < 1e-12);
         assert_eq!(region.cube(&[0.2, 0.25, 0.95]), None);
-        assert!(region.cuts(0, [0.303, 0.5]) && !region.cuts(0, [0.32, 0.5]) && region.cuts(0, [0.4, 0.69]));
-        assert!(!region.cuts(1, [0.0, 1.0]) && !region.cuts(2, [0.95, 1.0]));
+        let even = |low: f64, high: f64| {
+            (0..200).map(|k| low + (high - low) * f64::from(k) / 199.0).collect::<Vec<_>>()
+        };
+        assert!(region.cuts(0, &even(0.302, 0.698)) && !region.cuts(0, &even(0.35, 0.65)));
+        assert!(region.cuts(0, &even(0.6, 0.698)) && !region.cuts(1, &even(0.0, 1.0)));
+        assert!(!region.cuts(2, &even(0.95, 1.0)) && region.cuts(2, &even(0.9, 1.0)));
     }
 }

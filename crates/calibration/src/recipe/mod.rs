@@ -93,6 +93,21 @@ impl Test {
 }
 
 impl Recipe {
+    /// A blank that nothing fills in the last step, and its test, which no step has to run.
+    pub fn open_blank(&self) -> Option<(String, String)> {
+        let with = &self.steps.last()?.with;
+        let known = |name: &str| {
+            with.contains_key(name)
+                || check::OWN_BLANKS.contains(&name)
+                || self.parameters.iter().any(|p| p.name == name)
+        };
+        let open = |t: &Test| {
+            let name = blanks::names(&t.command).into_iter().find(|name| !known(name))?;
+            Some((name.to_owned(), t.name.clone()))
+        };
+        self.tests.iter().find_map(open)
+    }
+
     /// The first test with the command of this one: their runs are the same, and are made once.
     pub fn first_with_command_of(&self, test: usize) -> usize {
         let command = &self.tests[test].command;
@@ -122,9 +137,15 @@ pub fn read(path: &Path, data: &GivenData) -> Result<Recipe> {
     let parameters = check::parameters(&text, &keys.parameter)?;
     let with = with::names(&text, &keys, &parameters)?;
     let blanks: Vec<&str> = parameters.iter().map(|p| p.name.as_str()).chain(with.iter().copied()).collect();
-    let (tests, warnings) = tests_of::tests(&text, &keys.test, &blanks, &settings, (&here, data))?;
+    let (tests, mut warnings) = tests_of::tests(&text, &keys.test, &blanks, &settings, (&here, data))?;
     check::used(&text, &parameters, &tests)?;
     with::refuse_unused(&text, &keys, &tests)?;
     let steps = steps::steps(&text, &keys, &parameters, (&tests, &with))?;
+    for (k, test) in tests.iter().enumerate() {
+        if test.target.is_some() && !steps.iter().any(|s| s.to.iter().any(|p| p.test == k)) {
+            warnings
+                .push(format!("test '{}': no step fits to it, so that its data change nothing", test.name));
+        }
+    }
     Ok(Recipe { name, here, parameters, tests, steps, settings, warnings })
 }

@@ -3,7 +3,7 @@
 use super::check::whole;
 use super::keys::{PartKeys, RecipeKeys, StepKeys};
 use super::text::Text;
-use super::{Parameter, Test, with};
+use super::{Parameter, Test, blanks, with};
 use crate::error::{CalibrateError, Result, hint};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -48,7 +48,7 @@ pub(super) fn steps(
     text: &Text,
     keys: &RecipeKeys,
     parameters: &[Parameter],
-    (tests, blanks): (&[Test], &[&str]),
+    (tests, names): (&[Test], &[&str]),
 ) -> Result<Vec<Step>> {
     let measured = |test: usize| tests[test].target.is_some();
     let all_tests: Vec<Part> = (0..tests.len()).filter(|k| measured(*k)).map(whole_curve).collect();
@@ -58,7 +58,7 @@ pub(super) fn steps(
     }
     if keys.step.is_empty() {
         let fit = (0..parameters.len()).collect();
-        let with = with::of_step(text, &keys.settings, None, tests.iter(), (blanks, 0..0))?;
+        let with = with::of_step(text, &keys.settings, None, tests.iter(), (names, 0..0))?;
         let name = "all".to_owned();
         let [trials, first, batch] = numbers(text, keys, None, (&name, parameters.len()))?;
         return Ok(vec![Step { name, fit, to: all_tests, with, within: None, trials, first, batch }]);
@@ -80,14 +80,18 @@ pub(super) fn steps(
                 parts.get_ref().iter().map(|p| part(text, &parts.span(), p, tests)).collect::<Result<_>>()?
             }
         };
-        // The last step also runs tests without data, for --design.
-        let last = k + 1 == keys.step.len();
-        let runs = tests
-            .iter()
-            .enumerate()
-            .filter(|(k, t)| to.iter().any(|p| p.test == *k) || last && t.target.is_none());
-        let place = (blanks, entry.span());
-        let with = with::of_step(text, &keys.settings, Some(key), runs.map(|(_, t)| t), place)?;
+        let of = |test: &usize| to.iter().any(|p| p.test == *test);
+        let runs = (0..tests.len()).filter(of).map(|test| &tests[test]);
+        let has =
+            |p: usize| runs.clone().any(|t| blanks::names(&t.command).contains(&&parameters[p].name[..]));
+        if let Some(&p) = fit.iter().find(|p| !has(**p)) {
+            let message = format!(
+                "step '{}' fits '{1}', and no test that it fits to has the blank {{{1}}}: add the test to 'to'",
+                key.name, parameters[p].name
+            );
+            return Err(text.refuse(&key.fit.span(), message));
+        }
+        let with = with::of_step(text, &keys.settings, Some(key), runs, (names, entry.span()))?;
         let within = key.within.as_ref().map(|name| within(text, name, before)).transpose()?;
         let name = key.name.clone();
         let [trials, first, batch] = numbers(text, keys, Some(key), (&name, fit.len()))?;

@@ -9,8 +9,6 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 
-type With = Option<Spanned<BTreeMap<String, Number>>>;
-
 /// The names that any `with` fills.
 ///
 /// # Errors
@@ -59,23 +57,33 @@ pub(super) fn refuse_unused(text: &Text, keys: &RecipeKeys, tests: &[Test]) -> R
     }
 }
 
-/// What the blanks stand for in a step: its own values, then those of the settings; `tests` are those that it runs, and its place is named by `span`.
+/// What the blanks of a step's commands stand for: its own values, then those of the settings; `tests` are those that it fits to, and its place is named
+/// by `span`.
 pub(super) fn of_step<'a>(
     text: &Text,
     settings: &SettingsKeys,
     step: Option<&StepKeys>,
-    tests: impl Iterator<Item = &'a Test>,
+    tests: impl Iterator<Item = &'a Test> + Clone,
     (names, span): (&[&str], Range<usize>),
 ) -> Result<BTreeMap<String, String>> {
-    let list = |with: &With| -> Vec<(String, String)> {
-        with.iter().flat_map(|w| w.get_ref()).map(|(name, value)| (name.clone(), shown(value))).collect()
-    };
-    let mut all: BTreeMap<String, String> = list(&settings.with).into_iter().collect();
-    all.extend(step.map_or(Vec::new(), |s| list(&s.with)));
-    for test in tests {
+    let mut all = BTreeMap::new();
+    for with in settings.with.iter().chain(step.and_then(|s| s.with.as_ref())) {
+        for (name, value) in with.get_ref() {
+            all.insert(name.clone(), shown(text, with, name, value)?);
+        }
+    }
+    let uses = |name: &str| tests.clone().any(|t| blanks::names(&t.command).contains(&name));
+    let place = step.map_or(String::new(), |s| format!("step '{}': ", s.name));
+    let own = step.and_then(|s| s.with.as_ref());
+    if let Some((with, name)) = own.and_then(|w| Some((w, w.get_ref().keys().find(|name| !uses(name))?))) {
+        let message = format!(
+            "{place}with: '{name}' changes nothing: no test that it fits to has the blank {{{name}}}"
+        );
+        return Err(text.refuse(&with.span(), message));
+    }
+    for test in tests.clone() {
         let open = |name: &&str| names.contains(name) && !all.contains_key(*name);
         if let Some(name) = blanks::names(&test.command).into_iter().find(open) {
-            let place = step.map_or(String::new(), |s| format!("step '{}': ", s.name));
             let message = format!(
                 "{place}nothing fills the blank {{{name}}} of test '{}': add with = {{ {name} = … }} to the step, or to [settings] for all steps",
                 test.name
@@ -86,11 +94,23 @@ pub(super) fn of_step<'a>(
     Ok(all)
 }
 
-fn shown(value: &Number) -> String {
+/// A value as a command gets it.
+fn shown(
+    text: &Text,
+    with: &Spanned<BTreeMap<String, Number>>,
+    name: &str,
+    value: &Number,
+) -> Result<String> {
+    let plain = |t: &str| !t.is_empty() && t.chars().all(|c| c.is_alphanumeric() || "._-+%,:=/".contains(c));
     match value {
-        Number::Whole(n) => n.to_string(),
-        Number::Plain(v) => blanks::shown(*v),
-        Number::Text(t) => t.clone(),
+        Number::Whole(n) => Ok(n.to_string()),
+        Number::Plain(v) if v.is_finite() => Ok(blanks::shown(*v)),
+        Number::Plain(v) => Err(text.refuse(&with.span(), format!("with: {name} = {v}: give a finite number"))),
+        Number::Text(t) if plain(t) => Ok(t.clone()),
+        Number::Text(t) => Err(text.refuse(
+            &with.span(),
+            format!("with: {name} = \"{t}\": a command gets it as it is: give one word, such as \"0.002\" or \"fine.toml\""),
+        )),
     }
 }
 

@@ -17,15 +17,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const HOPELESS: usize = 3;
 
 impl Session<'_> {
-    /// The tests that a step runs: those that it fits to, and in the last step those that `--design` may propose. Tests with the same command stand
+    /// The tests that a step runs: those that it fits to; in the last step all, if `--design` is to compare them. Tests with the same command stand
     /// together: what one of them runs tells of all.
     fn commands(&self, step: usize) -> Vec<Vec<usize>> {
         let last = step + 1 == self.recipe.steps.len();
         let to = &self.recipe.steps[step].to;
-        let asked = |test: usize| {
-            to.iter().any(|part| part.test == test)
-                || last && self.candidates && self.recipe.tests[test].target.is_none()
-        };
+        let asked = |test: usize| last && self.candidates || to.iter().any(|part| part.test == test);
         let mut groups: Vec<Vec<usize>> = Vec::new();
         for test in 0..self.recipe.tests.len() {
             let first = self.recipe.first_with_command_of(test);

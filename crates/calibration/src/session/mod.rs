@@ -89,6 +89,12 @@ impl<'a> Session<'a> {
             .map_err(crate::error::file(&self.dir, "cannot create the folder"))?;
         [self.dir.clone(), self.dir.join("batches")].iter().for_each(|f| crate::trial::lock::clear_files(f));
         let recipe: &'a Recipe = self.recipe;
+        if let Some((name, test)) = recipe.open_blank().filter(|_| self.candidates) {
+            let message = format!(
+                "--design runs every test in the last step, and nothing fills the blank {{{name}}} of test '{test}' there: add with = {{ {name} = … }}"
+            );
+            return Err(CalibrateError::Usage(message));
+        }
         let mut work = work::Work::new(self, run::now());
         let (mut tried, mut ends): (Vec<Tried>, Vec<StepEnd>) = (Vec::new(), Vec::new());
         let mut held: Vec<f64> =
@@ -166,7 +172,7 @@ impl<'a> Session<'a> {
                     return Ok(None);
                 }
                 trials += count;
-                if let Some(rate) = work.rate_so_far(self.jobs) {
+                if let Some(rate) = work.rate_again(self.jobs) {
                     self.watch.tell(&rate);
                 }
                 work.check_sizes(self, step, tried)?;

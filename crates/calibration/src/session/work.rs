@@ -98,10 +98,10 @@ impl Work {
         }
     }
 
-    /// How long the step will take, by the runs so far; `None` where none was made.
-    pub fn rate_so_far(&self, jobs: usize) -> Option<String> {
+    /// How long the step will take, by the runs so far; `None` where they are those that it was told by.
+    pub fn rate_again(&self, jobs: usize) -> Option<String> {
         let count = self.lock();
-        (count.measured.0 > 0).then(|| self.rate(&count, jobs))
+        (count.measured.0 > MEASURED.max(2 * jobs)).then(|| self.rate(&count, jobs))
     }
 
     fn rate(&self, count: &Count, jobs: usize) -> String {
