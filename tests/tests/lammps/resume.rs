@@ -176,9 +176,9 @@ fn nothing_is_lost_without_a_word() {
     assert!(again.stderr.contains("has no whole state: the run begins again"), "{}", again.stderr);
     assert_eq!(fs::read_to_string(&frames).unwrap(), text);
     // A deck is not written over one that has run.
-    let deck = ["s.toml", "--until", "2e-4", "--write-deck", "kept"];
+    let deck = ["s.toml", "--until", "2e-4", "--lmp", "lmp", "--write-deck", "kept"];
     succeed(path, "dem-lammps", &deck);
-    let other = tool(path, "dem-lammps", &["s.toml", "--write-deck", "kept"]);
+    let other = tool(path, "dem-lammps", &["s.toml", "--lmp", "lmp", "--write-deck", "kept"]);
     assert!(other.code == 1 && other.stderr.contains("kept: holds another run"), "{}", other.stderr);
 }
 
@@ -191,11 +191,11 @@ fn a_batch_script_that_is_submitted_again_goes_on() {
     let folder = impacts();
     let path = folder.path();
     succeed(path, "dem-lammps", &["s.toml", "-q", "-o", "whole.mcap"]);
-    succeed(path, "dem-lammps", &["s.toml", "-q", "--write-deck", "deck"]);
+    succeed(path, "dem-lammps", &["s.toml", "-q", "--lmp", "lmp", "--write-deck", "deck"]);
     let bin = path.join("bin");
     fs::create_dir(&bin).unwrap();
     let srun = "#!/bin/bash\n\"$@\" > /dev/null & lmp=$!\n[ -e second ] && { wait $lmp; exit; }\n\
-        until tail -c 16 state_1 2> /dev/null | grep -aq RestartT; do sleep 0.01; done\nkill -9 $lmp\ntouch second\n";
+        while kill -0 $lmp && ! tail -c 16 state_1 2> /dev/null | grep -aq RestartT; do sleep 0.01; done\nkill -9 $lmp\ntouch second\n";
     fs::write(bin.join("srun"), srun).unwrap();
     fs::set_permissions(bin.join("srun"), fs::Permissions::from_mode(0o755)).unwrap();
     let search = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
