@@ -1,14 +1,13 @@
 //! A batch script for Slurm.
 
-use crate::deck::{FINISHED, STATES};
-use crate::folder::END;
+use crate::files::{FINISHED, STATES, WHOLE};
 use std::path::Path;
 
 /// The script of a scene on so many ranks.
 pub fn slurm(scene: &str, ranks: usize) -> String {
     let stem = Path::new(scene).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    let ([a, b], length) = (STATES, END.len() + 1);
+    let ([a, b], length) = (STATES, WHOLE.len() + 1);
     format!(
         "#!/bin/bash\n#SBATCH --job-name={name}\n#SBATCH --ntasks={ranks}\n#SBATCH --output=slurm-%j.out\n\
          # Set the time limit and the partition of your cluster:  sbatch --time=12:00:00 --partition=NAME batch.sh\n\
@@ -17,7 +16,7 @@ pub fn slurm(scene: &str, ranks: usize) -> String {
          [ -e {FINISHED} ] && echo \"all steps are done\" && exit\n\
          options=() part=2\n\
          for state in $(ls -t {a} {b} 2> /dev/null); do\n  \
-           tail -c {length} \"$state\" | tr -d '\\0' | grep -q '{END}' || continue\n  \
+           tail -c {length} \"$state\" | tr -d '\\0' | grep -q '{WHOLE}' || continue\n  \
            while [ -e \"frames-$part.dump\" ]; do part=$((part + 1)); done\n  \
            options=(-var state \"$state\" -var frames \"frames-$part.dump\" -var zone \"zone-$part.dump\" -var pairs \"pairs-$part.dump\" -var touches \"touches-$part.dump\")\n  \
            break\n\

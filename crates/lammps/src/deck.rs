@@ -4,6 +4,7 @@ use crate::arrivals::Arrival;
 use crate::batch;
 use crate::data;
 use crate::error::{LammpsError, Result};
+use crate::files::{BATCH, COLUMNS, DATA, FINISHED, FRAMES, INPUT, STATES};
 use crate::law::{Target, coefficients};
 use crate::loads::Asked;
 use crate::outlet;
@@ -18,23 +19,8 @@ use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Write};
 use std::path::Path;
 
-/// Names of the files of a deck.
-pub const INPUT: &str = "run.in";
-const DATA: &str = "particles.data";
-/// The file that frames go to, unless a variable says otherwise.
-pub const FRAMES: &str = "frames.dump";
-/// The file that samples near outlets go to, unless a variable says otherwise.
-pub const ZONE: &str = "zone.dump";
-const BATCH: &str = "batch.sh";
-/// The files that LAMMPS keeps its state in, in turn.
-pub const STATES: [&str; 2] = ["state_1", "state_2"];
-/// The file that says that the last step was reached.
-pub const FINISHED: &str = "finished";
 /// States of a run, where the scene has no `output.checkpoint`.
 const KEPT: f64 = 20.0;
-
-/// Columns of a dump.
-pub const COLUMNS: &str = "id x y z vx vy vz omegax omegay omegaz";
 
 /// What a deck is made from.
 #[derive(Clone, Copy)]

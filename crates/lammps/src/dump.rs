@@ -188,7 +188,7 @@ impl<R: BufRead> Reader<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deck::COLUMNS;
+    use crate::files::COLUMNS;
 
     const ONE: &str = "ITEM: TIMESTEP\n20\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp mm\n0 1\n0 1\n0 1\n\
         ITEM: ATOMS id x y z vx vy vz omegax omegay omegaz\n3 0.5 0.5 1e-3 0 0 -1 0 0 2 \n";

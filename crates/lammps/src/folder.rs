@@ -10,10 +10,10 @@
 //!
 //! LAMMPS writes the dumps itself, so that none of them is lost with dem-lammps, which follows them.
 
-use crate::deck::{Deck, FINISHED, FRAMES, INPUT, STATES};
+use crate::deck::Deck;
 use crate::dump::Parts;
 use crate::error::{LammpsError, Result};
-use crate::job::DUMPS;
+use crate::files::{DUMPS, FINISHED, FRAMES, INPUT, LOCK, STATES, WHOLE};
 use dem::setup::Setup;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -22,11 +22,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use std::time::Duration;
 
-/// How a state that is whole ends, before a byte of zero.
-pub const END: &str = "LammpS RestartT";
 /// Time between looks at a file that grows.
 const LOOK: Duration = Duration::from_millis(10);
-const LOCK: &str = "lock";
 
 /// From where LAMMPS goes on.
 #[derive(Debug)]
@@ -152,10 +149,10 @@ fn newest(folder: &Path) -> io::Result<Option<&'static str>> {
 
 fn is_whole(state: &mut File) -> io::Result<bool> {
     let length = state.metadata()?.len();
-    let Some(from) = length.checked_sub(END.len() as u64 + 1) else { return Ok(false) };
+    let Some(from) = length.checked_sub(WHOLE.len() as u64 + 1) else { return Ok(false) };
     state.seek(SeekFrom::Start(from))?;
     let mut end = String::new();
-    Ok(state.read_to_string(&mut end).is_ok() && end.trim_end_matches('\0') == END)
+    Ok(state.read_to_string(&mut end).is_ok() && end.trim_end_matches('\0') == WHOLE)
 }
 
 /// A dump of a start while LAMMPS writes it, behind what earlier starts have left.
@@ -214,11 +211,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let put = |name: &str, text: &[u8]| fs::write(folder.path().join(name), text).unwrap();
         assert_eq!(newest(folder.path()).unwrap(), None);
-        put("state_1", &[b"numbers", END.as_bytes(), &[0]].concat());
+        put("state_1", &[b"numbers", WHOLE.as_bytes(), &[0]].concat());
         std::thread::sleep(Duration::from_millis(20));
         put("state_2", b"numb");
         assert_eq!(newest(folder.path()).unwrap(), Some("state_1"));
-        put("state_2", &[b"numbers", END.as_bytes(), &[0]].concat());
+        put("state_2", &[b"numbers", WHOLE.as_bytes(), &[0]].concat());
         assert_eq!(newest(folder.path()).unwrap(), Some("state_2"));
         // Only dumps of a deck have parts.
         for name in ["frames.dump", "frames-2.dump", "heap.dump", "heap-2.dump"] {

@@ -2,11 +2,11 @@
 
 use crate::arrivals::Arrival;
 use crate::data::number_of;
-use crate::deck::{COLUMNS, FRAMES, ZONE};
 use crate::dump::{Block, Dump, Ended, Parts};
 use crate::error::{LammpsError, Result};
+use crate::files::{COLUMNS, DUMPS, FRAMES, PAIRS, TOUCHES, ZONE};
 use crate::folder;
-use crate::loads::{self, Asked, Loads, Now, PAIRS, TOUCHES};
+use crate::loads::{self, Asked, Loads, Now};
 use crate::outlet::{Found, Search};
 use crate::process::{Engine, Place, Running};
 use dem::setup::{Particle, Setup};
@@ -21,8 +21,6 @@ use std::sync::{Mutex, PoisonError};
 /// What is wrong with a dump that was cut off.
 const TORN: &str = "it ends inside a frame";
 
-/// The dumps of a deck, in the order of the pipes.
-pub const DUMPS: [&str; 4] = [FRAMES, ZONE, PAIRS, TOUCHES];
 /// Buffer of a pipe from LAMMPS.
 const BUFFER: usize = 1 << 18;
 

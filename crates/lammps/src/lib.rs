@@ -1,12 +1,12 @@
 //! A scene on LAMMPS: laws, walls and particles as a deck, LAMMPS as a process, its dumps as a run file.
 //!
 //! ```text
-//! Plan → refuse → types → law, wall, motion → deck, data → process ⇄ dump → run file
+//! Plan → refuse → types → law, wall, motion → deck, data → folder → process ⇄ dump → run file
 //! ```
 //!
-//! [`refusal`] lists what LAMMPS cannot do; [`law`] turns contact laws into coefficients of `pair_style granular` and `fix wall/gran`;
-//! [`deck`] is the text of a run, [`data`] its atoms; [`process`] starts LAMMPS and keeps its last words; [`dump`] reads frames while it
-//! runs, [`folder`] keeps what a later start goes on from, [`outlet`] finds crossings in samples, [`loads`] what contacts bear; [`job`] writes them as [`run::RunFile`]. Modules use those before them in this list.
+//! [`refusal`] lists what LAMMPS cannot do; [`law`] turns contact laws into coefficients of `pair_style granular` and `fix wall/gran`; [`deck`] is the text of
+//! a run, [`data`] its atoms, [`files`] what they are called; [`folder`] keeps what a later start goes on from; [`process`] starts LAMMPS and keeps its last
+//! words; [`dump`] reads what it writes, [`outlet`] finds crossings in it, [`loads`] what contacts bear; [`job`] writes all of that as [`run::RunFile`].
 //!
 //! Sources: the documentation of LAMMPS (`pair_style granular`, `fix wall/gran`, `fix wall/gran/region`, `fix move`, `dump custom`) and its
 //! source of 29 Sep 2021 and 22 Jul 2025, against which the conversions are tested. Uses `dem` for the setup's types, `run` for the file.
@@ -18,6 +18,7 @@ mod data;
 mod deck;
 mod dump;
 mod error;
+mod files;
 mod folder;
 mod grain;
 mod job;
@@ -32,9 +33,10 @@ mod types;
 mod version;
 mod wall;
 
-pub use deck::{Deck, FRAMES};
+pub use deck::Deck;
 pub use dump::Parts;
 pub use error::LammpsError;
+pub use files::FRAMES;
 pub use folder::{Start, open};
 pub use law::Target;
 pub use process::Engine;

@@ -10,6 +10,7 @@
 
 use crate::data::number_of;
 use crate::dump::{Block, Dump, Ended};
+use crate::files::{PAIRS, TOUCHES};
 use crate::types::{Types, law};
 use dem::ContactRecord;
 use dem::WallForce;
@@ -18,10 +19,6 @@ use geom::Vec3;
 use scene::keys::SceneKeys;
 use std::fmt::Write;
 
-/// The file that pairs go to, unless a variable says otherwise.
-pub const PAIRS: &str = "pairs.dump";
-/// The file that touches go to, unless a variable says otherwise.
-pub const TOUCHES: &str = "touches.dump";
 /// Columns of the pairs.
 const OF_PAIRS: &str =
     "c_ends[1] c_ends[2] c_loads[1] c_loads[2] c_loads[3] c_loads[4] c_loads[5] c_loads[6]";

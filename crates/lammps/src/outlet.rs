@@ -6,8 +6,8 @@
 //!
 //! Behind the plane a grain moves freely and acts on all others, up to the exclusion plane; LAMMPS takes it out there.
 
-use crate::deck::{COLUMNS, ZONE};
 use crate::dump::{Block, Dump, Ended, Parts};
+use crate::files::{COLUMNS, ZONE};
 use crate::refusal::Refusal;
 use dem::setup::{Crossing, Particle, Setup, Zone, ZoneMotion, ZoneTest};
 use geom::Vec3;

@@ -1,9 +1,8 @@
 //! LAMMPS as a process: how it is started, stopped, and what it said last.
 
-use crate::deck::INPUT;
 use crate::error::{LammpsError, Result};
+use crate::files::{DUMPS, INPUT};
 use crate::folder::Start;
-use crate::job::DUMPS;
 use crate::version::Version;
 use rustix::process::{Pid, Signal};
 use std::collections::VecDeque;
