@@ -153,8 +153,7 @@ pub trait Recipe: Sync {
         None
     }
 
-    /// Least restitution during the preparation, if the local damping is that of the test [–]: a lower one shortens the time step, and the local damping
-    /// stops the grains.
+    /// Least restitution of a preparation with the test's local damping [–]: a lower one shortens the step, and that damping stops the grains.
     fn restitution(&self) -> f64 {
         0.0
     }
