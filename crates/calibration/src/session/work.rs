@@ -98,7 +98,7 @@ impl Work {
         }
     }
 
-    /// How long the step will take, by the runs so far; `None` where they are those that it was told by.
+    /// How long the step will take, by the runs so far; `None` where these were measured before.
     pub fn rate_again(&self, jobs: usize) -> Option<String> {
         let count = self.lock();
         (count.measured.0 > MEASURED.max(2 * jobs)).then(|| self.rate(&count, jobs))
