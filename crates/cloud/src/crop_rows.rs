@@ -68,8 +68,8 @@ pub fn crop_rows<R: Read>(mut blocks: Blocks<R>, rules: &Rules) -> Result<(KeptR
     report.points_out = kept.len() / stride;
     report.outside_shapes = report.points_in - report.not_finite - report.points_out;
     let properties = blocks.properties.iter().map(|p| (p.name.clone(), p.kind)).collect();
-    let (warnings, comments) =
-        (survey.warnings(kind == NumberType::F64), std::mem::take(&mut blocks.comments));
+    let comments = std::mem::take(&mut blocks.comments);
+    let warnings = survey.warnings(kind == NumberType::F64, &comments);
     Ok((KeptRows { comments, properties, rows: kept, warnings }, report))
 }
 

@@ -57,6 +57,14 @@ pub(crate) fn check_reach<'a>(points: impl IntoIterator<Item = (usize, &'a Vec3)
     found.map_or(Ok(()), |(index, at)| Err(TooFar { index, at: *at }))
 }
 
+/// How a comment begins that says that coordinates were scaled.
+const SCALED: &str = "coordinates were multiplied by";
+
+/// Whether comments say that a user has told the unit of the coordinates.
+pub(crate) fn unit_is_known(comments: &[String]) -> bool {
+    comments.iter().any(|line| line.starts_with(SCALED))
+}
+
 impl Cloud {
     /// Refuses points so far away that their distances cannot be computed with.
     ///
@@ -73,7 +81,7 @@ impl Cloud {
         let viewpoints: Vec<Vec3> = self.viewpoints().collect();
         self.comments.retain(|line| viewpoint(line).is_none());
         viewpoints.iter().for_each(|eye| self.add_viewpoint(&(eye * factor)));
-        self.comments.push(format!("coordinates were multiplied by {factor}"));
+        self.comments.push(format!("{SCALED} {factor}"));
     }
 
     /// Where the scanners stood [m], as comments say that tools pass on.

@@ -1,6 +1,7 @@
 //! Units of a scan: warns of coordinates that look like millimetres, and of coordinates with too few digits.
 
 use crate::Cloud;
+use crate::points::unit_is_known;
 use geom::Vec3;
 use std::fmt;
 
@@ -64,7 +65,7 @@ impl fmt::Display for UnitWarning {
 pub fn warnings(cloud: &Cloud) -> Vec<UnitWarning> {
     let mut survey = Survey::new(cloud.points.len());
     survey.add(cloud.points.len(), |row| cloud.points[row]);
-    survey.warnings(cloud.double)
+    survey.warnings(cloud.double, &cloud.comments)
 }
 
 /// Points that stand for all, of a cloud that comes in parts.
@@ -88,9 +89,13 @@ impl Survey {
         self.count += count;
     }
 
-    /// What looks wrong, if anything; `double` coordinates have 8 bytes.
-    pub fn warnings(&self, double: bool) -> Vec<UnitWarning> {
-        look(&self.some, self.count as f64, double)
+    /// What looks wrong, if anything; `double` coordinates have 8 bytes. Comments of the cloud may say that its unit is known.
+    pub fn warnings(&self, double: bool, comments: &[String]) -> Vec<UnitWarning> {
+        let mut found = look(&self.some, self.count as f64, double);
+        if unit_is_known(comments) {
+            found.retain(|warning| !matches!(warning, UnitWarning::Millimetres { .. }));
+        }
+        found
     }
 }
 
@@ -142,6 +147,9 @@ mod tests {
         assert!(matches!(warnings(&sheet(2.0, 0.0, true))[..], [UnitWarning::Millimetres { .. }]));
         let said = warnings(&sheet(2.0, 0.0, true))[0].to_string();
         assert!(said.contains("about 180 m wide") && said.contains("--scale 0.001"), "{said}");
+        let mut scaled = sheet(2000.0, 0.0, false);
+        scaled.scale(1e-3);
+        assert_eq!(warnings(&scaled), [], "its unit was told");
         let mut far = sheet(0.002, 0.0, false);
         far.points.push(Vec3::repeat(1e9));
         assert_eq!(warnings(&far), [], "an outlier is no plant");
