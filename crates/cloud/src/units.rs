@@ -149,7 +149,7 @@ mod tests {
         assert!(said.contains("about 180 m wide") && said.contains("--scale 0.001"), "{said}");
         let mut scaled = sheet(2000.0, 0.0, false);
         scaled.scale(1e-3);
-        assert_eq!(warnings(&scaled), [], "its unit was told");
+        assert_eq!(warnings(&scaled), [], "its unit is known");
         let mut far = sheet(0.002, 0.0, false);
         far.points.push(Vec3::repeat(1e9));
         assert_eq!(warnings(&far), [], "an outlier is no plant");
