@@ -4,7 +4,7 @@ use crate::arrivals::Arrival;
 use crate::batch;
 use crate::data;
 use crate::error::{LammpsError, Result};
-use crate::files::{BATCH, COLUMNS, DATA, FINISHED, FRAMES, INPUT, STATES};
+use crate::files::{BATCH, COLUMNS, DATA, FINISHED, FRAMES, INPUT, STATES, TOUCHES};
 use crate::law::{Target, coefficients};
 use crate::loads::Asked;
 use crate::outlet;
@@ -79,7 +79,7 @@ impl Deck {
         };
         let pairs = keep(pairs(setup, &types, target, &mut bent));
         let asked = Asked::of(&scene.keys, setup, &types);
-        let walls = keep(wall::commands(setup, &types, (target, asked.touches()), &mut bent));
+        let walls = keep(wall::commands(setup, &types, (target, asked.has(TOUCHES)), &mut bent));
         for list in [&mut refused, &mut bent] {
             let mut seen = Vec::new();
             list.retain(|one| {

@@ -93,7 +93,7 @@ impl Job<'_> {
             dumps.push((name, vec![Box::new(BufReader::with_capacity(BUFFER, pipe))]));
         }
         if let Place::Kept(start) = place {
-            for name in DUMPS.into_iter().filter(|name| self.has(name)) {
+            for name in DUMPS.into_iter().filter(|name| self.asked.has(name)) {
                 let parts = folder::followed(start, name, running.ended(), BUFFER);
                 let folder = || start.folder.display().to_string();
                 dumps.push((name, parts.map_err(|error| LammpsError::Folder { folder: folder(), error })?));
@@ -119,16 +119,6 @@ impl Job<'_> {
         }
     }
 
-    /// Whether a dump of the deck belongs to this scene.
-    pub fn has(&self, dump: &str) -> bool {
-        match dump {
-            ZONE => !self.setup.outlets.is_empty(),
-            PAIRS => self.asked.pairs(),
-            TOUCHES => self.asked.touches(),
-            _ => true,
-        }
-    }
-
     /// Writes all frames, what contacts bear, and the crossings in the samples near outlets, from dumps by their names.
     ///
     /// # Errors
@@ -144,10 +134,11 @@ impl Job<'_> {
         dumps: Vec<(&str, Parts)>,
         then: impl FnOnce(&Result<Ended>),
     ) -> Result<Ended> {
-        let mut dumps: BTreeMap<&str, Parts> = dumps.into_iter().filter(|(name, _)| self.has(name)).collect();
+        let mut dumps: BTreeMap<&str, Parts> =
+            dumps.into_iter().filter(|(name, _)| self.asked.has(name)).collect();
         let frames = Dump::new(dumps.remove(FRAMES).unwrap_or_default(), COLUMNS);
         let zone = dumps.remove(ZONE);
-        let mut loads = Loads::new(self.asked.clone(), self.setup, [PAIRS, TOUCHES].map(|d| dumps.remove(d)));
+        let mut loads = Loads::new(self.asked, self.setup, [PAIRS, TOUCHES].map(|d| dumps.remove(d)));
         let found = Mutex::new(Found::default());
         let search = Search::new(self.setup, self.schedule.dt);
         std::thread::scope(|scope| {

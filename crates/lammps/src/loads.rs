@@ -10,7 +10,7 @@
 
 use crate::data::number_of;
 use crate::dump::{Block, Dump, Ended};
-use crate::files::{PAIRS, TOUCHES};
+use crate::files::{PAIRS, TOUCHES, ZONE};
 use crate::types::{Types, law};
 use dem::ContactRecord;
 use dem::WallForce;
@@ -25,7 +25,7 @@ const OF_PAIRS: &str =
 /// Numbers of a grain at a fix of a plane.
 const AT_PLANE: usize = 4;
 
-/// What of the contacts goes into the run file.
+/// What a scene asks for beside its frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Asked {
     /// The contacts.
@@ -35,6 +35,7 @@ pub struct Asked {
     /// The fixes of planes: wall, and type of the grains.
     fixes: Vec<(usize, usize)>,
     spheres: bool,
+    outlets: bool,
     /// Whether grains bear a force that do not touch: the necks of JKR.
     necks: bool,
 }
@@ -47,12 +48,23 @@ impl Asked {
             walls: keys.output.wall_forces == Some(true),
             fixes: at_planes(setup, types).collect(),
             necks: setup.contacts.iter().any(|law| law.model("law") == Some("jkr")),
+            outlets: !setup.outlets.is_empty(),
             spheres: setup.walls.iter().any(|w| matches!(w.shape, WallShape::Spheres(_))),
         }
     }
 
+    /// Whether the deck writes a dump.
+    pub fn has(&self, dump: &str) -> bool {
+        match dump {
+            ZONE => self.outlets,
+            PAIRS => self.pairs(),
+            TOUCHES => self.touches(),
+            _ => true,
+        }
+    }
+
     /// Whether pairs are dumped.
-    pub fn pairs(&self) -> bool {
+    fn pairs(&self) -> bool {
         self.contacts || self.walls && self.spheres
     }
 
@@ -109,8 +121,7 @@ pub fn at_planes<'a>(setup: &'a Setup, types: &'a Types) -> impl Iterator<Item =
 
 /// Reads what contacts bear, frame by frame.
 pub struct Loads<'a> {
-    /// What is asked for.
-    pub asked: Asked,
+    asked: &'a Asked,
     pairs: Option<Dump<'a>>,
     touches: Option<Dump<'a>>,
     /// Number of the first wall sphere, and the wall of each with its centre at t = 0 and its radius.
@@ -133,7 +144,7 @@ pub struct Now<'a> {
 impl<'a> Loads<'a> {
     /// Of dumps that are there where they are asked for.
     pub fn new(
-        asked: Asked,
+        asked: &'a Asked,
         setup: &Setup,
         [pairs, touches]: [Option<crate::dump::Parts<'a>>; 2],
     ) -> Loads<'a> {
@@ -142,8 +153,8 @@ impl<'a> Loads<'a> {
             WallShape::Spheres(all) => all.iter().map(|(c, r)| (index, *c, *r)).collect(),
             _ => Vec::new(),
         });
-        let pairs = pairs.filter(|_| asked.pairs()).map(|parts| Dump::new(parts, OF_PAIRS));
-        let touches = touches.filter(|_| asked.touches()).map(|parts| Dump::new(parts, &asked.columns()));
+        let pairs = pairs.map(|parts| Dump::new(parts, OF_PAIRS));
+        let touches = touches.map(|parts| Dump::new(parts, &asked.columns()));
         Loads { pairs, touches, first, spheres: spheres.collect(), asked }
     }
 

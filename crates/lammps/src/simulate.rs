@@ -4,7 +4,7 @@ use crate::arrivals::{self, Arrival};
 use crate::deck::{Deck, Source};
 use crate::dump::Parts;
 use crate::error::{LammpsError, Result};
-use crate::files::DUMPS;
+use crate::files::{DUMPS, FRAMES};
 use crate::folder::{self, Start};
 use crate::job::Job;
 use crate::law::Target;
@@ -80,9 +80,7 @@ impl Prepared {
 
     /// The dumps that a run of it leaves, apart from the frames.
     pub fn dumps(&self) -> impl Iterator<Item = &'static str> {
-        let asked = &self.deck.asked;
-        let has = [!self.setup.outlets.is_empty(), asked.pairs(), asked.touches()];
-        DUMPS[1..].iter().zip(has).filter(|dump| dump.1).map(|dump| *dump.0)
+        DUMPS.into_iter().filter(|dump| *dump != FRAMES && self.deck.asked.has(dump))
     }
 
     /// Readies a folder that keeps what a later start goes on from.
