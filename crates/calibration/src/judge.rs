@@ -184,8 +184,7 @@ fn finding(recipe: &Recipe, end: &StepEnd, of: (usize, usize), sensitivities: &[
 fn sensitivities(recipe: &Recipe, end: &StepEnd) -> Vec<PartSensitivity> {
     let step: &Step = end.fitted.step;
     let of = |(part, emulator): (&crate::recipe::Part, &crate::emulator::Emulator)| {
-        let Sensitivity { alone, total } =
-            sensitivity(emulator, &end.fitted.region, step.fit.len(), recipe.settings.seed);
+        let Sensitivity { alone, total } = sensitivity(emulator, &end.fitted.region, recipe.settings.seed);
         let parameters = step.fit.iter().map(|&k| recipe.parameters[k].name.clone()).collect();
         let test = &recipe.tests[part.test].name;
         PartSensitivity { step: step.name.clone(), test: test.clone(), parameters, alone, total }

@@ -39,8 +39,8 @@ struct Candidate {
 }
 
 /// The even points of a step, from the `from`-th on.
-pub(crate) fn even(region: &Region, d: usize, seed: u64, from: usize, count: usize) -> Vec<Vec<f64>> {
-    let sequence = Halton::new(d, seed);
+pub(crate) fn even(region: &Region, seed: u64, from: usize, count: usize) -> Vec<Vec<f64>> {
+    let sequence = Halton::new(region.dimensions(), seed);
     (from..from + count).map(|k| region.at(&sequence.point(k as u64))).collect()
 }
 
@@ -76,7 +76,7 @@ pub(crate) fn choose(
     for k in 0..count {
         if (number + k) % 8 == 7 {
             let from = fitted.step.first + (number + k) / 8;
-            points.extend(even(&fitted.region, fitted.step.fit.len(), seeds.0, from, 1));
+            points.extend(even(&fitted.region, seeds.0, from, 1));
             continue;
         }
         let free: Vec<usize> = (0..candidates.len()).filter(|&c| apart(&candidates[c].z, &points)).collect();

@@ -38,6 +38,11 @@ impl Region {
         Region(fit.iter().map(end).collect())
     }
 
+    /// Number of coordinates.
+    pub fn dimensions(&self) -> usize {
+        self.0.len()
+    }
+
     /// The coordinates of a point of the unit cube.
     pub fn at(&self, cube: &[f64]) -> Vec<f64> {
         self.0.iter().zip(cube).map(|([low, high], u)| low + u * (high - low)).collect()

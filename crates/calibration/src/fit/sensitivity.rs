@@ -24,8 +24,9 @@ pub struct Sensitivity {
     pub total: Vec<f64>,
 }
 
-/// Indices of an emulator of `d` parameters in a region.
-pub(crate) fn sensitivity(emulator: &Emulator, region: &Region, d: usize, seed: u64) -> Sensitivity {
+/// Indices of an emulator in a region of its parameters.
+pub(crate) fn sensitivity(emulator: &Emulator, region: &Region, seed: u64) -> Sensitivity {
+    let d = region.dimensions();
     let sequence = Halton::new(2 * d, seed);
     let placed = |p: Vec<f64>| [region.at(&p[..d]), region.at(&p[d..])].concat();
     let points: Vec<Vec<f64>> = (1..=POINTS).map(|k| placed(sequence.point(k))).collect();
@@ -79,7 +80,7 @@ mod tests {
             before: &[],
         })
         .unwrap();
-        let s = sensitivity(&e, &Region::whole(3), 3, 2);
+        let s = sensitivity(&e, &Region::whole(3), 2);
         for (found, wanted) in s.total.iter().chain(&s.alone).zip([0.8, 0.2, 0.0, 0.8, 0.2, 0.0]) {
             assert!((found - wanted).abs() < 0.03, "{s:?}");
         }

@@ -163,10 +163,8 @@ impl<'a> Session<'a> {
                 }
                 trials += proposal.points.len();
             } else {
-                let make = || Proposal {
-                    points: choice::even(region, step.fit.len(), self.seed(k, 0), 0, count),
-                    certain: false,
-                };
+                let make =
+                    || Proposal { points: choice::even(region, self.seed(k, 0), 0, count), certain: false };
                 let proposal = Proposal::kept(self, (k, 0), tried, (held, region), make)?;
                 if !self.try_all(&proposal, (k, 0), (tried, held), work)? {
                     return Ok(None);
