@@ -6,8 +6,13 @@
 //! Cells are looked up in a dense table where the box is well filled (a bed of grains) and in a hash
 //! table where it is mostly empty (a scanned surface); both give the same order.
 
+mod sort;
+
+pub use sort::sorted;
+
 use crate::Vec3;
 use rayon::prelude::*;
+use sort::by_cell;
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -19,8 +24,6 @@ const DENSE_CELLS_PER_POINT: f64 = 8.0;
 /// A longer row of cells is searched by bisection, not cell by cell.
 const LONG_ROW: u64 = 32;
 const EMPTY: u32 = u32::MAX;
-/// Bits of a key that one pass of the sort looks at, at most.
-const DIGIT: u32 = 11;
 
 /// Points sorted into cubic cells.
 #[derive(Debug, Clone)]
@@ -87,7 +90,8 @@ impl Grid {
         let key = |p: &Vec3| grid.key(grid.cell_of(p));
         if cells <= DENSE_CELLS_PER_POINT * points.len() as f64 + 1024.0 {
             let keys: Vec<u64> = points.par_iter().map(key).collect();
-            grid.fill_dense(&keys, cells as usize);
+            let (order, starts) = by_cell(&keys, cells as usize);
+            (grid.order, grid.table) = (order, Table::Dense(starts));
         } else if cells < f64::from(u32::MAX) {
             let keys = points.par_iter().enumerate().map(|(i, p)| key(p) << 32 | i as u64).collect();
             let sorted = sorted(keys, cells as u64);
@@ -99,25 +103,6 @@ impl Grid {
             grid.fill_sparse(&keys, |&both| both);
         }
         grid
-    }
-
-    /// Counting sort: stable, so points of one cell stay in index order.
-    fn fill_dense(&mut self, keys: &[u64], cells: usize) {
-        let mut starts = vec![0u32; cells + 1];
-        for &k in keys {
-            starts[k as usize + 1] += 1;
-        }
-        for c in 0..cells {
-            starts[c + 1] += starts[c];
-        }
-        let mut next = starts.clone();
-        self.order = vec![0; keys.len()];
-        for (i, &k) in keys.iter().enumerate() {
-            let place = &mut next[k as usize];
-            self.order[*place as usize] = i as u32;
-            *place += 1;
-        }
-        self.table = Table::Dense(starts);
     }
 
     /// From points sorted by key; `split` gives the key and the index.
@@ -271,28 +256,6 @@ pub fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
         .par_iter()
         .fold(none, |(lo, hi), p| (lo.inf(p), hi.sup(p)))
         .reduce(none, |a, b| (a.0.inf(&b.0), a.1.sup(&b.1)))
-}
-
-/// Sorts by the upper 32 bits, which are at most `most`, keeping the order of equals (least significant digit first).
-pub fn sorted(mut items: Vec<u64>, most: u64) -> Vec<u64> {
-    let bits = u64::BITS - most.leading_zeros();
-    // As few bits at a time as the passes allow: fewer places to write to stay in the cache.
-    let digit = bits.div_ceil(bits.div_ceil(DIGIT).max(1)).max(1);
-    let mut other = vec![0; items.len()];
-    for shift in (32..32 + bits).step_by(digit as usize) {
-        let digit = |item: u64| (item >> shift) as usize & ((1 << digit) - 1);
-        let mut next = [0u32; 1 << DIGIT];
-        items.iter().for_each(|&item| next[digit(item)] += 1);
-        let mut sum = 0;
-        next.iter_mut().for_each(|n| sum += std::mem::replace(n, sum));
-        for &item in &items {
-            let place = &mut next[digit(item)];
-            other[*place as usize] = item;
-            *place += 1;
-        }
-        std::mem::swap(&mut items, &mut other);
-    }
-    items
 }
 
 /// Where each key is, by open addressing.

@@ -68,6 +68,21 @@ fn order_is_a_permutation_sorted_by_cell_then_index() {
     }
 }
 
+/// As many points as several threads sort: as one sort by cell and index, and the cells begin where they should.
+#[test]
+fn many_points_are_sorted_as_few() {
+    let keys: Vec<u64> =
+        scatter(200_000, [1000.0; 3]).iter().map(|p| (p.x as u64 / 7) * 7 + p.y as u64).collect();
+    for cells in [2000, 1_500_000] {
+        let (order, starts) = by_cell(&keys, cells);
+        let mut expected: Vec<u32> = (0..keys.len() as u32).collect();
+        expected.sort_by_key(|&i| (keys[i as usize], i));
+        assert!(order == expected);
+        let first = |cell: usize| expected.partition_point(|&i| keys[i as usize] < cell as u64) as u32;
+        assert!(starts.len() == cells + 1 && (0..=cells).step_by(13).all(|cell| starts[cell] == first(cell)));
+    }
+}
+
 /// Of a block's points, fewer have a neighbour elsewhere than of a slab's.
 #[test]
 fn blocks_are_cubes_that_fill_the_box() {
