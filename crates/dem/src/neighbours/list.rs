@@ -31,10 +31,11 @@ impl List {
 
 impl Slots {
     /// Slots of the contacts of `images`, then of each tile: lists for every kind, with particles of the tile and of later ones.
+    /// Each list is freed when its contacts have their slots.
     pub fn new(
         kinds: &[Kind],
-        images: &[List],
-        tiles: &[Vec<[List; 2]>],
+        images: Vec<List>,
+        tiles: Vec<Vec<[List; 2]>>,
         particles: usize,
         layout: Layout,
     ) -> Slots {
@@ -44,12 +45,12 @@ impl Slots {
         new.i.reserve(most);
         new.partner.reserve(most);
         let (mut history, mut rows, mut kept) = (0, 0, 0);
-        let mut put = |kind: usize, later: bool, list: &List, new: &mut Slots| {
+        let mut put = |kind: usize, later: bool, list: List, new: &mut Slots| {
             let len = list.i.len();
             if len == 0 {
                 return;
             }
-            let slots = new.append(list);
+            let slots = new.append(&list);
             let padded = slots.len();
             let with = kinds[kind].with;
             new.segments.push(Segment { kind, with, slots, len, later, history, rows, kept });
@@ -57,10 +58,10 @@ impl Slots {
             rows += if with == With::Particles { 0 } else { padded };
             kept += if later || with == With::Images { padded } else { 0 };
         };
-        images.iter().enumerate().for_each(|(kind, list)| put(kind, false, list, &mut new));
+        images.into_iter().enumerate().for_each(|(kind, list)| put(kind, false, list, &mut new));
         for tile in tiles {
             new.tiles.push(new.segments.len());
-            for (kind, [here, later]) in tile.iter().enumerate() {
+            for (kind, [here, later]) in tile.into_iter().enumerate() {
                 put(kind, false, here, &mut new);
                 put(kind, true, later, &mut new);
             }

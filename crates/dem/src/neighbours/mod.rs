@@ -17,6 +17,7 @@ pub use slices::{Computed, RestingTile, SlotRun, StepColumns, TileSlice};
 pub use slots::{Disturber, Segment, Slots};
 
 use crate::simd::{Row, Row4};
+use crate::state::SpareColumns;
 use crate::walls::images::Periods;
 
 /// Neighbour lists.
@@ -32,4 +33,6 @@ pub struct NeighbourLists {
     pub before: Vec<Row>,
     /// Their spins then; only with local damping.
     pub spins_before: Vec<Row4>,
+    /// For the next rebuild.
+    pub spare: SpareColumns,
 }

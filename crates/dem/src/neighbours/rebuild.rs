@@ -52,7 +52,7 @@ pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     let (search, order) = space_order(model, state);
     let mut new = vec![u32::MAX; state.particles.len()];
     (0..).zip(&order).for_each(|(now, &was)| new[was as usize] = now);
-    state.particles.select(&order);
+    state.particles.select(&order, &mut lists.spare);
     state.zones.reorder(&order, &new);
     state.clumps.reorder(&order, &new);
     state.bonds.reorder(&order, &new, &state.particles.id);
@@ -66,7 +66,7 @@ pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     if let Some(cell) = &mut state.strained {
         cell.list(margin(state.listing.skin, model.horizon * model.dt * cell.fastest(), model.mean_radius));
     }
-    list_contacts(model, state, lists, &search);
+    list_contacts(model, state, lists, search);
     let old = OldContacts { slots, columns, order, wraps, wall_periods };
     carry_over(model, state, lists, &old);
     drop(old);
@@ -142,7 +142,7 @@ pub fn restore_lists(model: &Model, state: &mut State, lists: &mut NeighbourList
     let p = &state.particles;
     let points: Vec<Vec3> = p.home.iter().map(Row4::vector).collect();
     let reach: Vec<f64> = (0..p.len()).map(|k| p.reach(k)).collect();
-    list_contacts(model, state, lists, &Search::new(&points, &reach));
+    list_contacts(model, state, lists, Search::new(&points, &reach));
     allocate(model, state, lists);
     for (k, _) in state.zones.left.clone() {
         let row = state.particles.rows[k as usize];
@@ -150,7 +150,7 @@ pub fn restore_lists(model: &Model, state: &mut State, lists: &mut NeighbourList
     }
 }
 
-fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, search: &Search) {
+fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, search: Search) {
     lists.wall_periods = periods_travelled(model, state);
     let count = state.particles.len();
     let wide = search.wide_pairs();
@@ -160,7 +160,7 @@ fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, s
         let range = t * tile..((t + 1) * tile).min(count);
         let mut found = vec![<[List; 2]>::default(); model.kinds.len()];
         let material = |k: u32| state.particles.material[k as usize];
-        let mut pairs = pairs(search, &wide, &range);
+        let mut pairs = pairs(&search, &wide, &range);
         state.clumps.drop_own(&mut pairs, |p| *p);
         state.bonds.drop_replaced(&mut pairs, |p| *p);
         // Those that touch go first: a block of others is passed over as long as none of them comes to touch.
@@ -171,8 +171,9 @@ fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, s
         list_walls(model, state, lists, range, &mut found);
         found
     });
-    let images = list_images(model, state, search);
-    lists.slots = Slots::new(&model.kinds, &images, &tiles, count, model.layout());
+    let images = list_images(model, state, &search);
+    drop(search);
+    lists.slots = Slots::new(&model.kinds, images, tiles, count, model.layout());
     lists.step = StepColumns::new(&lists.slots, model.kinds.iter().any(|k| k.kernel.rotates()));
     let history = Aligned::zeros(lists.slots.history);
     state.contacts = ContactColumns { layout: model.layout(), history, ..ContactColumns::default() };

@@ -9,7 +9,7 @@
 //! side of their box first.
 
 use crate::space::cell::ImageOf;
-use crate::threads::{each, share};
+use crate::threads::{each, nth, share, sort};
 use geom::grid::bounds;
 use geom::{Grid, Vec3};
 use std::ops::Range;
@@ -40,6 +40,9 @@ pub fn next_skin(skin: f64, held: u64, grain: f64) -> f64 {
 
 /// Particles of which one thread seeks images.
 const PART: usize = 4096;
+
+/// Wide particles of which one thread seeks pairs.
+const WIDE_PART: usize = 64;
 
 /// A pair of particles, i < j.
 pub type Pair = (u32, u32);
@@ -117,19 +120,26 @@ impl Search {
 
     /// Pairs with a wide particle, by first and second.
     pub fn wide_pairs(&self) -> Vec<Pair> {
-        let mut found = Vec::new();
-        for &w in &self.wide {
-            let (p, reach) = (self.positions[w as usize], self.reach[w as usize]);
-            for j in self.grid.runs_near(p, reach + self.largest).flatten() {
-                let close = reach + self.reach[j];
-                let once = j != w as usize && (self.common[j] > 0.0 || j > w as usize);
-                if once && (self.positions[j] - p).norm_squared() < close * close {
-                    found.push((w.min(j as u32), w.max(j as u32)));
-                }
+        let parts = self.wide.chunks(WIDE_PART).collect();
+        let found = share(self.wide.len() > WIDE_PART, parts, |wide: &[u32]| {
+            let mut found = Vec::new();
+            wide.iter().for_each(|&w| self.pairs_of_wide(w, &mut found));
+            found
+        });
+        let mut found = found.concat();
+        sort(&mut found);
+        found
+    }
+
+    fn pairs_of_wide(&self, w: u32, found: &mut Vec<Pair>) {
+        let (p, reach) = (self.positions[w as usize], self.reach[w as usize]);
+        for j in self.grid.runs_near(p, reach + self.largest).flatten() {
+            let close = reach + self.reach[j];
+            let once = j != w as usize && (self.common[j] > 0.0 || j > w as usize);
+            if once && (self.positions[j] - p).norm_squared() < close * close {
+                found.push((w.min(j as u32), w.max(j as u32)));
             }
         }
-        found.sort_unstable();
-        found
     }
 
     /// Pairs whose second is an image of a particle, shifted by `shift` [m], by first; `room` [m] is how much nearer images may come besides.
@@ -174,9 +184,7 @@ fn common_reach(reach: &[f64]) -> f64 {
     if reach.is_empty() {
         return 1.0;
     }
-    let mut sorted = reach.to_vec();
-    let at = ((reach.len() - 1) as f64 * COMMON) as usize;
-    *sorted.select_nth_unstable_by(at, f64::total_cmp).1
+    nth(reach, ((reach.len() - 1) as f64 * COMMON) as usize)
 }
 
 /// Pairs whose first is in `range`; `wide` are those of the whole search with wide particles.

@@ -27,7 +27,7 @@ pub use contacts::{ContactColumns, SavedColumns, WrenchColumns};
 pub use energy::Energy;
 pub use ledger::{DrivenBody, LedgerSums};
 pub use mount::MountState;
-pub use particles::Particles;
+pub use particles::{Particles, SpareColumns};
 pub use path::{EARLY, Path, PathEnd};
 pub use returned::{ReturnCounts, Returned};
 pub use servo::{Governor, Held, ServoState};

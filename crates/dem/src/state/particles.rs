@@ -4,7 +4,7 @@ use crate::effects::Material;
 use crate::setup::Particle;
 use crate::simd::{Row, Row4};
 use crate::space::sphere::{FAR, mass};
-use crate::threads::each;
+use crate::threads::refill;
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -40,10 +40,27 @@ pub fn kick_row(row: &mut Row, acceleration: &Row4, by: &Vec3, dt: f64) -> f64 {
 
 /// Takes the rows named by `order`; the last ones, so many as the `tail` is long, stay behind them.
 pub fn select<T: Copy + Send + Sync>(column: &mut Vec<T>, order: &[u32], tail: usize) {
+    select_by(&mut Vec::new(), column, order, tail);
+}
+
+/// The same by way of `spare` memory, which is another's afterwards.
+fn select_by<T: Copy + Send + Sync>(spare: &mut Vec<T>, column: &mut Vec<T>, order: &[u32], tail: usize) {
     let end = column.len() - tail;
-    let mut chosen = each(order.len(), |k| column[order[k] as usize]);
-    chosen.extend_from_slice(&column[end..]);
-    *column = chosen;
+    spare.clear();
+    spare.reserve_exact(order.len() + TAIL);
+    refill(spare, order.len(), |k| column[order[k] as usize]);
+    spare.extend_from_slice(&column[end..]);
+    std::mem::swap(column, spare);
+}
+
+/// Rows after the last particle, at most.
+const TAIL: usize = 2;
+
+/// Memory for columns that are put into another order; it is kept from one time to the next.
+#[derive(Debug, Default)]
+pub struct SpareColumns {
+    rows: Vec<Row>,
+    quads: Vec<Row4>,
 }
 
 impl Particles {
@@ -94,16 +111,18 @@ impl Particles {
     }
 
     /// Takes the particles named by `order`, and leaves the others.
-    pub fn select(&mut self, order: &[u32]) {
-        select(&mut self.rows, order, 2);
-        select(&mut self.acceleration, order, 0);
-        if self.rotates() {
-            select(&mut self.spins, order, 2);
-            select(&mut self.angular_acceleration, order, 0);
+    pub fn select(&mut self, order: &[u32], spare: &mut SpareColumns) {
+        let rotates = self.rotates();
+        let SpareColumns { rows, quads } = spare;
+        select_by(rows, &mut self.rows, order, TAIL);
+        select_by(quads, &mut self.acceleration, order, 0);
+        if rotates {
+            select_by(quads, &mut self.spins, order, TAIL);
+            select_by(quads, &mut self.angular_acceleration, order, 0);
         }
+        select_by(quads, &mut self.home, order, 0);
         select(&mut self.id, order, 0);
         select(&mut self.material, order, 0);
-        select(&mut self.home, order, 0);
     }
 
     /// How far the surface of particle `k` may come from its home [m].
