@@ -1,7 +1,7 @@
 //! Steps on a device: what it is sent, how often it is asked, and what is fetched.
 
 use crate::device::refused::refused;
-use crate::device::tables::Table;
+use crate::device::tables::{Plain, Table};
 use crate::device::{Device, DeviceError};
 use crate::kernel::device_tables::{
     DeviceBlock, DeviceFlags, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PARTICLES, PLANE, SPHERES,
@@ -11,10 +11,12 @@ use crate::kernel::wall_point::WallPose;
 use crate::model::{Model, With};
 use crate::neighbours::{NeighbourLists, Slots};
 use crate::setup::WallShape;
-use crate::simd::{BLOCK, Row, TORQUE};
+use crate::simd::{BLOCK, Row, Row4, TORQUE};
 use crate::state::State;
+use crate::threads::change;
 use crate::walls::images::Image;
 use geom::Vec3;
+use std::mem::swap;
 use std::time::Instant;
 
 /// Steps that are launched before the device is asked what they found: an answer takes as long as some steps of a small scene.
@@ -31,6 +33,7 @@ pub struct Stepper {
     held: Option<u64>,
     /// Which compositions there are contacts of.
     compositions: Vec<usize>,
+    fetched: Fetched,
     /// Where the time went so far.
     pub times: DeviceTimes,
 }
@@ -44,6 +47,16 @@ pub struct DeviceTimes {
     pub stepping: f64,
     /// The state was fetched.
     pub fetching: f64,
+}
+
+/// What is fetched, until all of it is there; the memory is kept from one time to the next.
+#[derive(Default)]
+struct Fetched {
+    rows: Vec<Row>,
+    spins: Vec<Row4>,
+    acceleration: Vec<Row4>,
+    angular_acceleration: Vec<Row4>,
+    history: Vec<f64>,
 }
 
 /// Everything that the device holds.
@@ -94,6 +107,7 @@ impl Stepper {
             listed: None,
             held: None,
             compositions: Vec::new(),
+            fetched: Fetched::default(),
             times: DeviceTimes::default(),
         })
     }
@@ -217,23 +231,36 @@ impl Stepper {
     /// Brings the state back, `steps` after the one that was sent.
     pub fn fetch(&mut self, state: &mut State, steps: u64) -> Result<(), DeviceError> {
         let start = Instant::now();
-        let Stepper { device, columns: c, .. } = self;
+        let Stepper { device, columns: c, fetched: f, .. } = self;
         let (p, device) = (&mut state.particles, device.as_mut());
         // All of them or none: a device may fail in between.
-        let (mut rows, mut spins) = (p.rows.clone(), p.spins.clone());
-        let (mut acceleration, mut turned) = (p.acceleration.clone(), p.angular_acceleration.clone());
-        c.rows.read(device, &mut rows)?;
-        c.spins.read(device, &mut spins)?;
-        c.acceleration.read(device, &mut acceleration)?;
-        c.angular_acceleration.read(device, &mut turned)?;
-        let mut history = state.contacts.history.clone();
-        c.history.read(device, &mut history)?;
-        (p.rows, p.spins, p.acceleration, p.angular_acceleration) = (rows, spins, acceleration, turned);
-        state.contacts.history = history;
+        read(device, &c.rows, &mut f.rows, p.rows.len())?;
+        read(device, &c.spins, &mut f.spins, p.spins.len())?;
+        read(device, &c.acceleration, &mut f.acceleration, p.acceleration.len())?;
+        let turned = p.angular_acceleration.len();
+        read(device, &c.angular_acceleration, &mut f.angular_acceleration, turned)?;
+        read(device, &c.history, &mut f.history, state.contacts.history.len())?;
+        swap(&mut p.rows, &mut f.rows);
+        swap(&mut p.spins, &mut f.spins);
+        swap(&mut p.acceleration, &mut f.acceleration);
+        swap(&mut p.angular_acceleration, &mut f.angular_acceleration);
+        let history = &f.history;
+        change(&mut state.contacts.history, |k, number| *number = history[k]);
         self.held = Some(steps);
         self.times.fetching += start.elapsed().as_secs_f64();
         Ok(())
     }
+}
+
+/// Reads so many rows of a table.
+fn read<T: Plain + Default>(
+    device: &mut dyn Device,
+    table: &Table,
+    to: &mut Vec<T>,
+    rows: usize,
+) -> Result<(), DeviceError> {
+    to.resize(rows, T::default());
+    table.read(device, to)
 }
 
 /// Kinds of contact, and the numbers of their effects.
