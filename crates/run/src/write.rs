@@ -3,6 +3,7 @@
 use crate::error::{Ended, Result};
 use crate::frames::{self, ParticleRows};
 use crate::simulate::{Before, FrameEnergy, Run};
+use dem::setup::KeptContact;
 use record::{FRAME, Watermark, json, topic};
 use scene::input::history;
 use stages::outlet::crossing::CrossingRow;
@@ -13,6 +14,8 @@ use std::io::Write;
 /// Particles up to which a run holds the state of the last step that was written, to go back to: twice its memory. A larger run goes
 /// back to the last checkpoint in its file.
 const HELD: usize = 500_000;
+/// Contact histories in one message: those of a large run together would be the most memory that it ever takes.
+const HISTORIES: usize = 1 << 18;
 /// Samples of paths that are held before they are written.
 const SAMPLES_HELD: usize = 4096;
 
@@ -89,9 +92,13 @@ impl<W: Write> Run<W> {
             self.writer.points(topic::CONTACTS, now, FRAME, frames::contacts(&contacts, precision))?;
         }
         if self.sim.steps() == self.schedule.last {
-            let kept = self.sim.contact_histories();
-            if !kept.is_empty() {
-                self.writer.points(topic::HISTORY, now, FRAME, history::to_table(&kept))?;
+            let mut kept = self.sim.contact_histories();
+            loop {
+                let some: Vec<KeptContact> = kept.by_ref().take(HISTORIES).collect();
+                if some.is_empty() {
+                    break;
+                }
+                self.writer.points(topic::HISTORY, now, FRAME, history::to_table(&some))?;
             }
         }
         self.outcome.frames += 1;

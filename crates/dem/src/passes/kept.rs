@@ -10,13 +10,17 @@ use crate::state::State;
 use std::collections::BTreeMap;
 
 /// Contacts that have a history now, in the order of their lists.
-pub fn histories(model: &Model, state: &State, lists: &NeighbourLists) -> Vec<KeptContact> {
+pub fn histories<'a>(
+    model: &'a Model,
+    state: &'a State,
+    lists: &'a NeighbourLists,
+) -> impl Iterator<Item = KeptContact> + use<'a> {
     let of = |segment: &Segment, slot: usize| {
         let history = history_at(model, state, segment, SlotEnd::new(slot, false));
         let (id, partner) = ends(model, state, lists, segment, slot);
         (!history.is_zero()).then_some(KeptContact { id, partner, history })
     };
-    lists.slots.segments.iter().flat_map(|s| s.contacts().filter_map(move |slot| of(s, slot))).collect()
+    lists.slots.segments.iter().flat_map(move |s| s.contacts().filter_map(move |slot| of(s, slot)))
 }
 
 /// Gives the contacts that are listed the histories of an earlier run.

@@ -57,7 +57,7 @@ impl Simulation {
     }
 
     /// Histories of all contacts that have one, to start another simulation from its particles ([`crate::setup::Setup::kept`]).
-    pub fn contact_histories(&self) -> Vec<KeptContact> {
+    pub fn contact_histories(&self) -> impl Iterator<Item = KeptContact> + '_ {
         kept::histories(&self.model, &self.state, &self.lists)
     }
 

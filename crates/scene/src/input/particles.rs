@@ -200,7 +200,7 @@ fn vertices(name: &str, bytes: &[u8]) -> Result<Table> {
 
 fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
     let (mut frame, mut materials, mut stopped) = (None, Vec::new(), None);
-    let (mut history, mut walls) = (None, Vec::new());
+    let (mut history, mut walls) = (Vec::new(), Vec::new());
     let (mut shapes, mut bodies) = (Vec::new(), None);
     for event in Reader::new(bytes) {
         match event.map_err(|e| SceneError::content(&name, "a run", e))? {
@@ -216,8 +216,10 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
             Event::Points { topic, time_ns, table } if topic == topic::BODIES => {
                 bodies = Some((time_ns, table))
             }
+            // Large runs write it in several messages.
             Event::Points { topic, time_ns, table } if topic == topic::HISTORY => {
-                history = Some((time_ns, table))
+                history.retain(|(at, _)| *at == time_ns);
+                history.push((time_ns, table));
             }
             Event::Bytes { topic, data, .. } if topic == topic::SURFACES => {
                 let read = WallRecord::read_all(&data)
@@ -232,10 +234,10 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
     }
     let none = || SceneError::file(&name, "has no message on /particles", "give a run that dem-run wrote");
     let (time, table) = frame.ok_or_else(none)?;
-    let kept = match history {
-        Some((at, rows)) if at == time => super::history::from_table(&name, &rows)?,
-        _ => Vec::new(),
-    };
+    let mut kept = Vec::new();
+    for (_, rows) in history.into_iter().filter(|(at, _)| *at == time) {
+        kept.extend(super::history::from_table(&name, &rows)?);
+    }
     let clumps = match bodies {
         Some((at, rows)) if at == time => Some(RunClumps { shapes, rows }),
         _ if table.get(BODY).is_some() => {
@@ -254,6 +256,32 @@ mod tests {
     fn file(name: &str, text: &[u8]) -> Result<ParticleFile> {
         let (name, table) = (name.to_owned(), csv(name, text)?);
         ParticleTable::listed(name, table).particles()
+    }
+
+    /// Messages on `/history` with the last frame add up; those of an earlier frame do not count.
+    #[test]
+    fn histories_of_a_large_run_come_in_several_messages() {
+        use super::super::history::to_table;
+        use dem::setup::{ContactHistory, KeptPartner};
+        use record::FRAME;
+        use stream::mcap::{Provenance, Writer};
+        let contact = |id: u32| KeptContact {
+            id,
+            partner: KeptPartner::Particle(id + 1),
+            history: ContactHistory::default(),
+        };
+        let mut writer = Writer::new(Vec::new(), &Provenance::default()).unwrap();
+        for (time, pieces) in [(1, &[0..2][..]), (2, &[10..13, 20..21])] {
+            let table = csv("a.csv", b"x,y,z,radius\n0,1,2,0.5\n").unwrap();
+            writer.points(topic::PARTICLES, time, FRAME, table).unwrap();
+            for ids in pieces {
+                let rows: Vec<KeptContact> = ids.clone().map(contact).collect();
+                writer.points(topic::HISTORY, time, FRAME, to_table(&rows)).unwrap();
+            }
+        }
+        let read = last_frame("run.mcap".to_owned(), &writer.finish().unwrap()).unwrap();
+        let ids: Vec<u32> = read.kept.0.iter().map(|k| k.id).collect();
+        assert_eq!(ids, [10, 11, 12, 20]);
     }
 
     #[test]
