@@ -127,6 +127,7 @@ impl State {
         let mut particles = Particles::new(model.rotates);
         let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
         sorted.sort_unstable_by_key(|p| p.id);
+        particles.reserve(sorted.len());
         sorted.into_iter().for_each(|p| particles.push(p, &setup.materials));
         let clumps = RigidClumps::new(setup, &mut particles);
         let bonds = Bonds::new(setup, &particles)?;

@@ -56,6 +56,9 @@ fn select_by<T: Copy + Send + Sync>(spare: &mut Vec<T>, column: &mut Vec<T>, ord
 /// Rows after the last particle, at most.
 const TAIL: usize = 2;
 
+/// Up to so many threads memory is worth more than the time that spare columns save.
+const FEW_THREADS: usize = 4;
+
 /// Memory for columns that are put into another order; it is kept from one time to the next.
 #[derive(Debug, Default)]
 pub struct SpareColumns {
@@ -110,6 +113,19 @@ impl Particles {
         self.home.push(Row4::of(p));
     }
 
+    /// Makes room for so many more: columns that grow one by one take twice their length.
+    pub fn reserve(&mut self, more: usize) {
+        self.rows.reserve_exact(more);
+        self.acceleration.reserve_exact(more);
+        if self.rotates() {
+            self.spins.reserve_exact(more);
+            self.angular_acceleration.reserve_exact(more);
+        }
+        self.id.reserve_exact(more);
+        self.material.reserve_exact(more);
+        self.home.reserve_exact(more);
+    }
+
     /// Takes the particles named by `order`, and leaves the others.
     pub fn select(&mut self, order: &[u32], spare: &mut SpareColumns) {
         let rotates = self.rotates();
@@ -121,6 +137,10 @@ impl Particles {
             select_by(quads, &mut self.angular_acceleration, order, 0);
         }
         select_by(quads, &mut self.home, order, 0);
+        // New pages cost many threads more than the sorting does, because they wait for each other, and few threads next to nothing.
+        if rayon::current_num_threads() <= FEW_THREADS {
+            *spare = SpareColumns::default();
+        }
         select(&mut self.id, order, 0);
         select(&mut self.material, order, 0);
     }
