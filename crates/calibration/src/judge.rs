@@ -130,13 +130,6 @@ pub fn judge(recipe: &Recipe, tried: &[Tried], ends: &[StepEnd]) -> Judged {
     }
 }
 
-/// Coordinates of one fitted parameter over the samples, in order of size.
-fn sorted(end: &StepEnd, at: usize) -> Vec<f64> {
-    let mut values: Vec<f64> = end.samples.list.iter().map(|s| s.z[at]).collect();
-    values.sort_by(f64::total_cmp);
-    values
-}
-
 /// The value below which a share of sorted values lies.
 pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let at = share * (sorted.len() - 1) as f64;
@@ -148,7 +141,7 @@ fn finding(recipe: &Recipe, end: &StepEnd, of: (usize, usize), sensitivities: &[
     let (k, at) = of;
     let p = &recipe.parameters[k];
     let tail = 0.5 * (1.0 - recipe.settings.interval);
-    let values = sorted(end, at);
+    let values = end.samples.sorted(at);
     let ends = [tail, 1.0 - tail].map(|s| quantile(&values, s));
     let prior = [tail, 1.0 - tail].map(|s| p.prior_quantile(s));
     let width = (ends[1] - ends[0]) / (prior[1] - prior[0]);
@@ -214,7 +207,7 @@ fn pairs(recipe: &Recipe, end: &StepEnd) -> Vec<Pair> {
     let tail = 0.5 * (1.0 - recipe.settings.interval);
     let column = |at: usize| -> Vec<f64> { end.samples.list.iter().map(|s| s.z[at]).collect() };
     let width = |at: usize| {
-        let (values, p) = (sorted(end, at), &recipe.parameters[fit[at]]);
+        let (values, p) = (end.samples.sorted(at), &recipe.parameters[fit[at]]);
         (quantile(&values, 1.0 - tail) - quantile(&values, tail))
             / (p.prior_quantile(1.0 - tail) - p.prior_quantile(tail))
     };
@@ -227,7 +220,7 @@ fn pairs(recipe: &Recipe, end: &StepEnd) -> Vec<Pair> {
                 continue;
             }
             let (p, q) = (&recipe.parameters[fit[j]], &recipe.parameters[fit[i]]);
-            let sorted_a = sorted(end, j);
+            let sorted_a = end.samples.sorted(j);
             // The second where the first is in its lowest, and in its highest tenth.
             let near = |keep: &dyn Fn(f64) -> bool| {
                 let mut some: Vec<(f64, f64)> =

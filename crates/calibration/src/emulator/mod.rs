@@ -11,9 +11,11 @@
 //! t: components of the data; V: variances of the emulator; N: covariance of specimens, which deviate in all components at once, from the trials
 //! nearest to the data, each left out; s² ≥ 1: how much the data deviate more than they say.
 
+mod crossed;
 mod gp;
 mod rprop;
 
+use crossed::crossed;
 pub(crate) use gp::{Gp, Logs, Prediction};
 
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -25,6 +27,8 @@ const MOST: usize = 10;
 const LEAST: f64 = 0.05;
 /// Deviation of a process over the trials, in deviations of data and specimens, below which it only scatters.
 const FLAT: f64 = 0.1;
+/// Trials a parameter, below which lengths are fitted anew where points are left out.
+const FEW: usize = 10;
 /// Trials near the data, at least.
 const NEAR: usize = 60;
 /// Share by which the correlations of specimens are lowered: those of few trials are never exact.
@@ -93,10 +97,16 @@ impl Emulator {
             Gp::fit(&lessons.inputs, &scores.row(k).transpose(), start)
         };
         let mut components: Vec<Gp> = (0..scores.nrows()).into_par_iter().map(fit).collect::<Option<_>>()?;
+        let few = lessons.inputs.nrows() < FEW * lessons.inputs.ncols();
+        let left_out = |(k, gp): (usize, &Gp)| match few {
+            true => crossed(&lessons.inputs, &scores.row(k).transpose()),
+            false => gp.left_out(),
+        };
+        let left_out: Vec<Vec<f64>> =
+            components.par_iter().enumerate().map(|(k, gp)| left_out((k, gp))).collect::<Option<_>>()?;
         let near = nearest(&scores, &target, lessons.inputs.ncols());
         let mut off = DMatrix::zeros(near.len(), components.len());
-        for (k, gp) in components.iter_mut().enumerate() {
-            let all = gp.left_out()?;
+        for (k, (gp, all)) in components.iter_mut().zip(&left_out).enumerate() {
             let mean = near.iter().map(|&i| all[i] * all[i]).sum::<f64>() / near.len() as f64;
             gp.rescale(mean.max(LEAST_FACTOR));
             off.column_mut(k).iter_mut().zip(&near).for_each(|(o, &i)| *o = all[i] / mean.max(1e-300).sqrt());

@@ -27,8 +27,7 @@ impl Region {
     pub fn left_by(samples: &Samples, earlier: &[usize], fit: &[usize]) -> Region {
         let end = |p: &usize| {
             let Some(at) = earlier.iter().position(|e| e == p) else { return [0.0, 1.0] };
-            let mut values: Vec<f64> = samples.list.iter().map(|s| s.z[at]).collect();
-            values.sort_by(f64::total_cmp);
+            let values = samples.sorted(at);
             let quantile = |share: f64| values[(share * (values.len() - 1) as f64).round() as usize];
             let (low, high) = (quantile(TAIL), quantile(1.0 - TAIL));
             let room = (ROOM * (high - low)).max(0.5 * (LEAST - (high - low)));

@@ -44,6 +44,15 @@ pub(crate) struct Samples {
     pub ratio: f64,
 }
 
+impl Samples {
+    /// Coordinate `at` of all of them, in order of size.
+    pub fn sorted(&self, at: usize) -> Vec<f64> {
+        let mut values: Vec<f64> = self.list.iter().map(|s| s.z[at]).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    }
+}
+
 /// A density in the cube, as its logarithm.
 pub(crate) type Density<'a> = dyn Fn(&[f64]) -> f64 + Sync + 'a;
 

@@ -110,8 +110,7 @@ impl<'a> Session<'a> {
             end.fitted.inflate(&best);
             end.samples = end.fitted.samples(recipe.settings.seed ^ SEEDS ^ k as u64, LONG);
             for (j, &p) in step.fit.iter().enumerate() {
-                let mut values: Vec<f64> = end.samples.list.iter().map(|s| s.z[j]).collect();
-                values.sort_by(f64::total_cmp);
+                let values = end.samples.sorted(j);
                 // With the digits that a file keeps.
                 held[p] = proposal::digits(values[values.len() / 2]);
             }
@@ -207,8 +206,7 @@ impl<'a> Session<'a> {
     fn widths(&self, samples: &Samples) -> Vec<f64> {
         let share = 0.5 * (1.0 - self.recipe.settings.interval);
         let width = |k: usize| {
-            let mut values: Vec<f64> = samples.list.iter().map(|s| s.z[k]).collect();
-            values.sort_by(f64::total_cmp);
+            let values = samples.sorted(k);
             let at = |s: f64| values[((s * values.len() as f64) as usize).min(values.len() - 1)];
             at(1.0 - share) - at(share)
         };

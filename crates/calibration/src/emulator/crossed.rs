@@ -1,0 +1,54 @@
+//! How far each trial is from what the others say of it, where there are few.
+
+use super::gp::Gp;
+use nalgebra::{DMatrix, DVector};
+
+/// Parts that are left out in turn.
+const FOLDS: usize = 10;
+
+/// As [`Gp::left_out`], with lengths fitted anew without the points of each part: lengths of few points follow every one of them, and would seem to
+/// predict it. Stone (1974), doi:10.1111/j.2517-6161.1974.tb00994.x.
+pub(crate) fn crossed(inputs: &DMatrix<f64>, y: &DVector<f64>) -> Option<Vec<f64>> {
+    let n = inputs.nrows();
+    let mut off = vec![0.0; n];
+    for fold in 0..FOLDS.min(n) {
+        let rest: Vec<usize> = (0..n).filter(|i| i % FOLDS != fold).collect();
+        let gp = Gp::fit(&inputs.select_rows(&rest), &y.select_rows(&rest), None)?;
+        for i in (fold..n).step_by(FOLDS) {
+            let p = gp.predict(&inputs.row(i).iter().copied().collect::<Vec<_>>());
+            off[i] = (y[i] - p.mean) / (p.variance + gp.noise).sqrt();
+        }
+    }
+    Some(off)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geom::random::{generator, unit};
+
+    /// Twelve points of a function of three parameters that bends: how often is it within 1.64 deviations of its emulator, which 90 % should be?
+    #[test]
+    fn few_points_promise_no_more_than_they_hold() {
+        let f = |z: &[f64]| libm::tanh(4.0 * z[0] - 2.0) * (0.5 + z[1]) + libm::exp(-3.0 * z[2] * z[0]);
+        let (mut inside, mut alone, mut all) = (0, 0, 0);
+        for seed in 0..20 {
+            let mut random = generator(seed, 1, 0);
+            let x = DMatrix::from_fn(12, 3, |_, _| unit(&mut random));
+            let at = |x: &DMatrix<f64>, i: usize| [x[(i, 0)], x[(i, 1)], x[(i, 2)]];
+            let y = DVector::from_fn(12, |i, _| f(&at(&x, i)));
+            let gp = Gp::fit(&x, &y, None).unwrap();
+            let square = |off: Vec<f64>| off.iter().map(|o| o * o).sum::<f64>() / 12.0;
+            let factors = [square(crossed(&x, &y).unwrap()), square(gp.left_out().unwrap())];
+            for z in (0..50).map(|_| [0; 3].map(|_| unit(&mut random))) {
+                let p = gp.predict(&z);
+                let [crossed, left_out] = factors
+                    .map(|factor| (p.mean - f(&z)).abs() <= 1.64 * (factor * (p.variance + gp.noise)).sqrt());
+                (inside, alone, all) =
+                    (inside + usize::from(crossed), alone + usize::from(left_out), all + 1);
+            }
+        }
+        assert!(100 * inside >= 78 * all, "{inside} of {all}; with the lengths as they are {alone}");
+        assert!(100 * alone < 65 * all, "the lengths as they are would do: {alone} of {all}");
+    }
+}
