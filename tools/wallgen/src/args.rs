@@ -90,7 +90,7 @@ enum Place {
 impl Args {
     /// What the options ask for.
     pub fn settings(&self) -> anyhow::Result<WallSettings> {
-        if self.roughness.is_none() && !matches!(self.radius, Radius::Given(_)) {
+        if !self.is_drawing() && self.roughness.is_none() && !matches!(self.radius, Radius::Given(_)) {
             return Err(cli::usage(
                 "--roughness: is needed to find the radii; add --roughness M, or give --radius M",
             ));
@@ -142,18 +142,20 @@ impl Args {
 
     /// How the spheres of a drawing are placed.
     pub fn drawing(&self, regions: &Regions) -> anyhow::Result<Drawing> {
-        let Radius::Given(radius) = self.radius else {
-            return Err(cli::usage("--from-mesh: all spheres have one given radius; add --radius M"));
-        };
         if self.facing.is_some() {
             return Err(cli::usage(
                 "--facing: does not work with a drawing; give a point in the flow, --flow-at x,y,z",
             ));
         }
-        let Some(roughness) = regions.least_roughness() else {
-            return Err(cli::usage(
-                "--from-mesh: the distance between spheres follows from the roughness; add --roughness M",
-            ));
+        let (Radius::Given(radius), Some(roughness)) = (self.radius, regions.least_roughness()) else {
+            let missing = match (self.radius, regions.least_roughness()) {
+                (Radius::Given(_), _) => "--roughness M",
+                (_, Some(_)) => "--radius M",
+                (_, None) => "--radius M and --roughness M",
+            };
+            return Err(cli::usage(format!(
+                "--from-mesh: all spheres have one given radius, and the distance between them follows from the roughness; add {missing}"
+            )));
         };
         let centred = matches!(self.place, Some(Place::Centre));
         Ok(Drawing { radius, roughness, flow_at: self.flow_at, centred })

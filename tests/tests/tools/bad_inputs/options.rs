@@ -49,6 +49,7 @@ const OF_WALLGEN: &[Case] = &[
     misused("wallgen good.ply --roughness 0.001 --place surface", &["--place surface", "--facing x,y,z"]),
     misused("wallgen good.ply --roughness 0.001 --poisson 0.7", &["--poisson", "0.7"]),
     misused("wallgen --roughness 0.001 --from-mesh mesh.obj", &["--from-mesh", "add --radius M"]),
+    misused("wallgen --from-mesh mesh.obj", &["--from-mesh", "add --radius M and --roughness M"]),
     misused("wallgen --radius 0.01 --from-mesh mesh.obj", &["--from-mesh", "add --roughness M"]),
     failed("wallgen --radius 0.01 --roughness 0.02 --from-mesh mesh.obj", &["0.02 m", "at most the radius"]),
     failed("wallgen --radius 1e-9 --roughness 1e-12 --from-mesh mesh.obj", &["too many", "millimetres"]),
