@@ -32,22 +32,28 @@ calibrate "$here/synthetic.toml" "${data[@]}" --jobs "$jobs" --dir "$out/synthet
 compared "$truth" "$out/synthetic/found.csv" > "$out/synthetic.md"
 "$here/../stages/section.sh" "$page" synthetic < "$out/synthetic.md"
 
-for k in $(seq "$repeats"); do
-  folder=$out/repeat-$k
-  [ -e "$folder/found.csv" ] && continue
-  mkdir -p "$folder"
-  # shellcheck disable=SC2086
-  awk -v load=100 $(printf -- '-v %s ' $truth) -v seed=$((100001 + 100 * k)) -f "$here/shear-model.awk" > "$folder/lab.csv"
-  calibrate "$here/intervals.toml" --data "$folder/lab.csv" --seed $((1000 * k)) --jobs "$jobs" --dir "$folder/trials" -q -o "$folder/found.csv"
-  rm -rf "$folder/trials"
-done
-for k in $(seq "$repeats"); do tail -n +2 "$out/repeat-$k/found.csv"; done | awk -F, -v truth="$truth" '
-  BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], pair, "="); value[pair[1]] = pair[2]; name[k] = pair[1] } }
-  { v = value[$1]; all[$1]++; holds[$1] += $4 <= v && v <= $5; off = $3 / v - 1; squares[$1] += off * off; width[$1] += ($5 - $4) / 2 / v }
-  END { print "| parameter | repeats | interval holds the truth | error (root mean square) | half width of the interval |\n|---|---|---|---|---|"
-    for (k = 1; k <= n; k++) { p = name[k]; m = all[p]; h += holds[p]; a += m
-      if (m) printf "| %s | %d | %d | %.1f %% | %.1f %% |\n", p, m, holds[p], 100 * sqrt(squares[p] / m), 100 * width[p] / m }
-    printf "| all | %d | %d (%.0f %%) | | |\n", a, h, 100 * h / a }' > "$out/intervals.md"
+# Trials in all, and how many of them come first: few, and as many as it takes.
+cp "$here/shear-model.awk" "$out"
+for trials in 12:8 20:12 70:30; do
+  recipe=$out/intervals-${trials%:*}.toml
+  sed "s/^trials = .*/trials = ${trials%:*}/; s/^first = .*/first = ${trials#*:}/" "$here/intervals.toml" > "$recipe"
+  for k in $(seq "$repeats"); do
+    folder=$out/repeat-${trials%:*}-$k
+    [ -e "$folder/found.csv" ] && continue
+    mkdir -p "$folder"
+    # shellcheck disable=SC2086
+    awk -v load=100 $(printf -- '-v %s ' $truth) -v seed=$((100001 + 100 * k)) -f "$here/shear-model.awk" > "$folder/lab.csv"
+    calibrate "$recipe" --data "$folder/lab.csv" --seed $((1000 * k)) --jobs "$jobs" --dir "$folder/trials" -q -o "$folder/found.csv"
+    rm -rf "$folder/trials"
+  done
+  for k in $(seq "$repeats"); do tail -n +2 "$out/repeat-${trials%:*}-$k/found.csv"; done | awk -F, -v truth="$truth" -v trials="${trials%:*}" '
+    BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], pair, "="); value[pair[1]] = pair[2]; name[k] = pair[1] }
+      if (trials == 12) print "| trials | parameter | repeats | interval holds the truth | error (root mean square) | half width of the interval |\n|---|---|---|---|---|---|" }
+    { v = value[$1]; all[$1]++; holds[$1] += $4 <= v && v <= $5; off = $3 / v - 1; squares[$1] += off * off; width[$1] += ($5 - $4) / 2 / v }
+    END { for (k = 1; k <= n; k++) { p = name[k]; m = all[p]; h += holds[p]; a += m
+        if (m) printf "| %d | %s | %d | %d | %.1f %% | %.1f %% |\n", trials, p, m, holds[p], 100 * sqrt(squares[p] / m), 100 * width[p] / m }
+      printf "| %d | all | %d | %d (%.0f %%) | | |\n", trials, a, h, 100 * h / a }'
+done > "$out/intervals.md"
 "$here/../stages/section.sh" "$page" intervals < "$out/intervals.md"
 
 [ -e "$out/lab/rates.csv" ] || "$here/truth.sh" "$out/lab" 0.5 0.15 1001 1002 1003 1004
