@@ -1,5 +1,6 @@
 //! The data file: all atoms at t = 0, grains first, then wall spheres.
 
+use crate::arrivals::Arrival;
 use crate::types::{Kind, Types};
 use dem::setup::{Particle, Setup, WallShape};
 use geom::Vec3;
@@ -64,7 +65,7 @@ pub fn bounds(setup: &Setup) -> [Vec3; 2] {
 ///
 /// # Errors
 /// A write that fails.
-pub fn write(setup: &Setup, types: &Types, free: &[(u32, f64)], out: &mut impl Write) -> io::Result<()> {
+pub fn write(setup: &Setup, types: &Types, arrivals: &[Arrival], out: &mut impl Write) -> io::Result<()> {
     let [low, high] = bounds(setup);
     writeln!(out, "Grains and wall spheres of a scene, written by dem-lammps\n")?;
     writeln!(out, "{} atoms\n{} atom types\n", setup.particles.len() + walls(setup), types.0.len().max(1))?;
@@ -91,13 +92,17 @@ pub fn write(setup: &Setup, types: &Types, free: &[(u32, f64)], out: &mut impl W
         let (v, w) = (a.velocity, a.spin);
         writeln!(out, "{} {:?} {:?} {:?} {:?} {:?} {:?}", a.number, v.x, v.y, v.z, w.x, w.y, w.z)
     })?;
-    if free.is_empty() {
+    if arrivals.is_empty() {
         return Ok(());
     }
-    writeln!(out, "\nFree # number, time from which a grain moves freely [s]\n")?;
+    let names = "time from which a grain is free [s], step from which it falls; step and change of velocity [m/s] when it leaves, and when it comes";
+    writeln!(out, "\nWay # number, {names}\n")?;
     each(setup, types, |a| {
-        let of = free.binary_search_by_key(&a.number, |(id, _)| number_of(*id));
-        writeln!(out, "{} {:?}", a.number, of.map_or(0.0, |index| free[index].1))
+        write!(out, "{}", a.number)?;
+        let of = arrivals.binary_search_by_key(&a.number, |arrival| number_of(arrival.id));
+        let numbers = of.map_or([0.0; 10], |index| arrivals[index].numbers());
+        numbers.iter().try_for_each(|value| write!(out, " {value:?}"))?;
+        writeln!(out)
     })
 }
 

@@ -51,8 +51,8 @@ pub struct Deck {
     /// What of contacts it dumps.
     pub asked: Asked,
     types: Types,
-    /// Times at which grains that come in are free [s], by their ids.
-    free: Vec<(u32, f64)>,
+    /// Grains that come in, by their ids.
+    arrivals: Vec<Arrival>,
 }
 
 impl Deck {
@@ -62,10 +62,8 @@ impl Deck {
     /// Everything in the scene that LAMMPS cannot do.
     pub fn of(from: Source) -> Result<Deck> {
         let Source { scene, setup, arrivals, target, .. } = from;
-        let (mut refused, mut bent) = (refusal::scene(&scene.keys, setup), Vec::new());
+        let (mut refused, mut bent) = (refusal::parts(&scene.keys, setup), Vec::new());
         if target.nearest { &mut bent } else { &mut refused }.extend(refusal::leavable(&scene.keys, setup));
-        refused.extend(refusal::walls(setup));
-        refused.extend(outlet::refused(setup));
         refused.extend(particles(setup));
         let types = Types::of(setup).unwrap_or_else(|refusal| {
             if target.nearest { &mut bent } else { &mut refused }.push(refusal);
@@ -93,20 +91,20 @@ impl Deck {
             return Err(LammpsError::Cannot(refused));
         }
         // After all other forces.
-        let free = if arrivals.is_empty() { "" } else { "\nfix steady waiting setforce 0 0 0\n" }.to_owned();
+        let way = if arrivals.is_empty() { String::new() } else { Arrival::commands(&setup.gravity) };
         let input = [
             head(&from),
             pairs,
             groups(&types),
             motion(&from),
             walls,
-            free,
+            way,
             outlet::commands(setup),
             tail(scene, from.schedule, &asked),
         ]
         .concat();
-        let free = arrivals.iter().map(|a| (a.id, a.free)).collect();
-        Ok(Deck { input, batch: batch::slurm(&scene.text.name, from.ranks), bent, asked, types, free })
+        let (batch, arrivals) = (batch::slurm(&scene.text.name, from.ranks), arrivals.to_vec());
+        Ok(Deck { input, batch, bent, asked, types, arrivals })
     }
 
     /// Whether the particles in a folder are those of this deck.
@@ -115,7 +113,7 @@ impl Deck {
     /// A file that cannot be read.
     pub fn has_particles_of(&self, setup: &Setup, folder: &Path) -> std::io::Result<bool> {
         let mut data = Same::new(BufReader::new(File::open(folder.join(DATA))?));
-        data::write(setup, &self.types, &self.free, &mut data)?;
+        data::write(setup, &self.types, &self.arrivals, &mut data)?;
         data.ends()
     }
 
@@ -127,7 +125,7 @@ impl Deck {
         let write = || {
             std::fs::create_dir_all(folder)?;
             let mut data = BufWriter::with_capacity(1 << 20, File::create(folder.join(DATA))?);
-            data::write(setup, &self.types, &self.free, &mut data)?;
+            data::write(setup, &self.types, &self.arrivals, &mut data)?;
             data.flush()?;
             std::fs::write(folder.join(BATCH), &self.batch)?;
             // A folder with an input script has all of the deck.
@@ -184,12 +182,12 @@ fn head(Source { scene, setup, schedule, arrivals, .. }: &Source) -> String {
     let name = Path::new(&scene.text.name).file_name().unwrap_or_default().to_string_lossy().into_owned();
     let smallest = setup.particles.iter().map(|p| p.radius).fold(f64::INFINITY, f64::min);
     // A property has to be there before the data are read, and after a state is.
-    let free = "\"fix free all property/atom d_free\"";
+    let way = format!("\"fix way all property/atom {}\"", Arrival::NAMES);
     let [fresh, resumed] = match arrivals.is_empty() {
         true => [format!("\"read_data {DATA}\""), "\"read_restart ${state}\"".to_owned()],
         false => [
-            format!("{free} \"read_data {DATA} fix free NULL Free\""),
-            format!("\"read_restart ${{state}}\" {free}"),
+            format!("{way} \"read_data {DATA} fix way NULL Way\""),
+            format!("\"read_restart ${{state}}\" {way}"),
         ],
     };
     let skin = setup.skin.unwrap_or(0.4 * smallest);
@@ -244,7 +242,7 @@ fn groups(types: &Types) -> String {
     text
 }
 
-fn motion(Source { setup, arrivals, target, .. }: &Source) -> String {
+fn motion(Source { setup, arrivals, .. }: &Source) -> String {
     let (g, size) = (setup.gravity, setup.gravity.norm());
     let gravity = match size > 0.0 {
         true => format!("fix gravity grains gravity {size:?} vector {:?} {:?} {:?}\n", g.x, g.y, g.z),
@@ -253,16 +251,13 @@ fn motion(Source { setup, arrivals, target, .. }: &Source) -> String {
     if arrivals.is_empty() {
         return format!("fix move grains nve/sphere\n{gravity}");
     }
-    let (feels, exclude) = match target.version.excludes_dynamic_groups() {
-        true => ("touch nothing", "neigh_modify exclude group waiting all\n"),
-        false => ("feel nothing", ""),
-    };
     format!(
-        "\n# grains that come in keep their velocity and {feels} until they are free\n\
-         compute free grains property/atom d_free\n\
-         variable waits atom \"step*dt<c_free\"\nvariable moves atom \"step*dt>=c_free\"\n\
+        "\n# grains that come in feel nothing until they are free\n\
+         compute way grains property/atom {}\n\
+         variable waits atom \"step*dt<c_way[1]\"\nvariable moves atom \"step*dt>=c_way[1]\"\n\
          group waiting dynamic grains var waits every 1\ngroup free dynamic grains var moves every 1\n\
-         {exclude}fix come waiting nve\nfix move free nve/sphere\n{gravity}"
+         fix come waiting nve\nfix move free nve/sphere\n{gravity}",
+        Arrival::NAMES
     )
 }
 

@@ -140,7 +140,7 @@ impl Job<'_> {
         let zone = dumps.remove(ZONE);
         let mut loads = Loads::new(self.asked, self.setup, [PAIRS, TOUCHES].map(|d| dumps.remove(d)));
         let found = Mutex::new(Found::default());
-        let search = Search::new(self.setup, self.schedule.dt);
+        let search = Search::new(self.setup, self.arrivals, self.schedule.dt);
         std::thread::scope(|scope| {
             let outlets = zone.is_some();
             let add = |more: Found| {
@@ -179,7 +179,8 @@ impl Job<'_> {
             self.last = Some(frame.step);
             let time = frame.step as f64 * self.schedule.dt;
             self.enter(time);
-            let now = Now { setup: self.setup, step: frame.step, time, particles: &self.particles };
+            let (setup, arrivals) = (self.setup, self.arrivals);
+            let now = Now { setup, arrivals, step: frame.step, time, particles: &self.particles };
             let contacts = match loads.at(&now) {
                 Ok(contacts) => contacts,
                 Err(ended) => return Ok(ended),

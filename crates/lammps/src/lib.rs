@@ -4,7 +4,7 @@
 //! Plan → refuse → types → law, wall, motion → deck, data → folder → process ⇄ dump → run file
 //! ```
 //!
-//! [`refusal`] lists what LAMMPS cannot do; [`law`] turns contact laws into coefficients of `pair_style granular` and `fix wall/gran`; [`deck`] is the text of
+//! [`inflow`] reads what inlets bring, [`arrivals`] has it come in from a [`depot`]; [`refusal`] lists what LAMMPS cannot do; [`law`] turns contact laws into coefficients of `pair_style granular` and `fix wall/gran`; [`deck`] is the text of
 //! a run, [`data`] its atoms, [`files`] what they are called; [`folder`] keeps what a later start goes on from; [`process`] starts LAMMPS and keeps its last
 //! words; [`dump`] reads what it writes, [`outlet`] finds crossings in it, [`loads`] what contacts bear; [`job`] writes all of that as [`run::RunFile`].
 //!
@@ -16,11 +16,13 @@ mod batch;
 mod damping;
 mod data;
 mod deck;
+mod depot;
 mod dump;
 mod error;
 mod files;
 mod folder;
 mod grain;
+mod inflow;
 mod job;
 mod law;
 mod loads;
@@ -38,8 +40,9 @@ pub use dump::Parts;
 pub use error::LammpsError;
 pub use files::FRAMES;
 pub use folder::{Start, open};
+pub use inflow::Inflow;
 pub use law::Target;
 pub use process::Engine;
-pub use refusal::Refusal;
+pub use refusal::{Refusal, refuse};
 pub use simulate::{Origin, Outcome, Prepared, Settings, prepare, run, sampled};
 pub use version::Version;

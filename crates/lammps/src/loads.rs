@@ -8,6 +8,7 @@
 //! Where the two touch, n and the overlap follow from the frame. Forces of planes are those of the step; LAMMPS computes those of pairs again at the end of the
 //! step, so a dashpot has the speed half a step later.
 
+use crate::arrivals::{self, Arrival};
 use crate::data::number_of;
 use crate::dump::{Block, Dump, Ended};
 use crate::files::{PAIRS, TOUCHES, ZONE};
@@ -133,12 +134,22 @@ pub struct Loads<'a> {
 pub struct Now<'a> {
     /// The scene's setup.
     pub setup: &'a Setup,
+    /// Grains that come in, by id.
+    pub arrivals: &'a [Arrival],
     /// Step of the frame, and its time [s].
     pub step: u64,
     /// Time [s].
     pub time: f64,
     /// All particles by id.
     pub particles: &'a [Particle],
+}
+
+impl Now<'_> {
+    /// Whether an atom is a grain that forces act on: those on their way in feel nothing, and walls do not move by them.
+    fn is_free(&self, number: u64) -> bool {
+        let grain = self.particles.binary_search_by_key(&number, |p| number_of(p.id)).is_ok();
+        grain && arrivals::is_free(self.arrivals, number, self.time)
+    }
 }
 
 impl<'a> Loads<'a> {
@@ -197,6 +208,9 @@ impl<'a> Loads<'a> {
                 ends.swap(0, 1);
                 force = -force;
             }
+            if !now.is_free(ends[0]) && !now.is_free(ends[1]) {
+                continue;
+            }
             let i = particle(now, ends[0])?;
             let (centre, radius, j, wall) = match ends[1].checked_sub(self.first) {
                 None => {
@@ -232,6 +246,9 @@ impl<'a> Loads<'a> {
 
     fn touches(&self, touches: &Block, now: &Now, all: &mut Vec<ContactRecord>) -> Result<(), Ended> {
         for row in touches.rows() {
+            if !now.is_free(row[0] as u64) {
+                continue;
+            }
             let i = particle(now, row[0] as u64)?;
             for (at, (index, _)) in row[1..].chunks_exact(AT_PLANE).zip(&self.asked.fixes) {
                 let WallShape::Plane(plane) = &now.setup.walls[*index].shape else { continue };

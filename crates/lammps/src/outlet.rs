@@ -6,6 +6,7 @@
 //!
 //! Behind the plane a grain moves freely and acts on all others, up to the exclusion plane; LAMMPS takes it out there.
 
+use crate::arrivals::{self, Arrival};
 use crate::dump::{Block, Dump, Ended, Parts};
 use crate::files::{COLUMNS, ZONE};
 use crate::refusal::Refusal;
@@ -32,6 +33,17 @@ pub fn refused(setup: &Setup) -> Vec<Refusal> {
         }
     }
     all
+}
+
+/// Outlets that would take out grains which wait to come in.
+pub fn takes_waiting(setup: &Setup, waiting: &[Particle]) -> Option<Refusal> {
+    let past = |zone: &Zone| waiting.iter().any(|p| zone.plane.signed_distance(&p.position) > zone.length);
+    let outlet = setup.outlets.iter().position(past)?;
+    Some(Refusal::new(
+        format!("outlet.{outlet}"),
+        "grains that come in wait behind it, upstream of their inlet, and LAMMPS would take them out there",
+        "cut the plant so that inlets are before outlets, or use dem-run",
+    ))
 }
 
 /// Commands: regions, the dump of the atoms near the planes, and what is taken out.
@@ -82,7 +94,9 @@ pub struct Found {
 }
 
 /// Looks for crossings in samples.
-pub struct Search {
+pub struct Search<'a> {
+    /// Those that come in, by id.
+    arrivals: &'a [Arrival],
     outlets: Vec<Zone>,
     /// By id.
     particles: Vec<Particle>,
@@ -92,12 +106,19 @@ pub struct Search {
     last: Option<u64>,
 }
 
-impl Search {
-    /// Of the outlets of a setup, in steps of `dt` [s].
-    pub fn new(setup: &Setup, dt: f64) -> Search {
+impl<'a> Search<'a> {
+    /// Of the outlets of a setup, in steps of `dt` [s]; grains that come in cross when they are free.
+    pub fn new(setup: &Setup, arrivals: &'a [Arrival], dt: f64) -> Search<'a> {
         let mut particles = setup.particles.clone();
         particles.sort_by_key(|p| p.id);
-        Search { outlets: setup.outlets.clone(), particles, dt, before: BTreeMap::new(), last: None }
+        Search {
+            arrivals,
+            outlets: setup.outlets.clone(),
+            particles,
+            dt,
+            before: BTreeMap::new(),
+            last: None,
+        }
     }
 
     /// Reads samples to the end; `tell` gets what each adds.
@@ -121,6 +142,9 @@ impl Search {
         let rows = || frame.rows().filter_map(numbered);
         for (number, now) in rows() {
             let Some(before) = self.before.get(&number) else { continue };
+            if !arrivals::is_free(self.arrivals, number, from) {
+                continue;
+            }
             for (outlet, zone) in (0..).zip(&self.outlets) {
                 let found = self.particles.binary_search_by_key(&number, |p| crate::data::number_of(p.id));
                 let Ok(particle) = found.map(|index| &self.particles[index]) else { continue };

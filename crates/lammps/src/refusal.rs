@@ -1,7 +1,10 @@
 //! What of a scene LAMMPS cannot do, by name, with the nearest that it can.
 
-use dem::setup::{Precision, Setup, WallShape};
+use crate::error::{LammpsError, Result};
+use crate::outlet;
+use dem::setup::{Precision, Setup, WallShape, ZoneMotion};
 use scene::keys::SceneKeys;
+use scene::{Plan, Scene};
 use std::fmt;
 
 /// Something that LAMMPS cannot do.
@@ -36,8 +39,28 @@ fn all_of(cases: impl IntoIterator<Item = Case>) -> Vec<Refusal> {
     held.map(|(_, what, why, nearest)| Refusal::new(what, why, nearest)).collect()
 }
 
+/// Refuses what can be refused before inlets are read, which may take as long as the stage upstream runs.
+///
+/// # Errors
+/// What LAMMPS cannot do.
+pub fn refuse(scene: &Scene, plan: &Plan, nearest: bool) -> Result<()> {
+    let mut refused = parts(&scene.keys, &plan.setup);
+    if !nearest {
+        refused.extend(leavable(&scene.keys, &plan.setup));
+    }
+    if refused.is_empty() { Ok(()) } else { Err(LammpsError::Cannot(refused)) }
+}
+
+/// Everything in a scene apart from laws and particles that LAMMPS does not have.
+pub fn parts(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
+    let mut all = scene(keys, setup);
+    all.extend(walls(setup));
+    all.extend(outlet::refused(setup));
+    all
+}
+
 /// Parts of a scene apart from laws and walls without which it would be another one; laws and walls say themselves what they cannot.
-pub fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
+fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
     let ends = "a LAMMPS run ends at time.until";
     all_of([
         (
@@ -48,10 +71,10 @@ pub fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
         ),
         (!keys.bond.is_empty(), "bond", "bonds are not written for LAMMPS", "use law = \"jkr\", or dem-run"),
         (
-            !keys.inlet.is_empty(),
-            "inlet",
-            "LAMMPS has no inlet of a cut",
-            "run the stage upstream on LAMMPS and this one with dem-run",
+            setup.inlets.iter().any(|zone| zone.motion == ZoneMotion::Recorded),
+            "inlet.motion = \"recorded\"",
+            "LAMMPS moves no grain along a recorded path",
+            "use \"ballistic\", and stage-replay --move ballistic",
         ),
         (
             !keys.domain.strain.is_empty(),
@@ -73,7 +96,6 @@ pub fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
 
 /// Keys that LAMMPS has nothing for, and whose absence leaves the motion of the grains nearly as it is.
 pub fn leavable(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
-    let friction = setup.contacts.iter().any(|law| law.number("sliding_friction").is_some());
     let ledger = "LAMMPS keeps no energy ledger";
     all_of([
         (keys.sleep.is_some(), "sleep", "particles of LAMMPS do not sleep", "leave it out"),
@@ -86,7 +108,7 @@ pub fn leavable(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
             "leave it out",
         ),
         (
-            !setup.kept.is_empty() && friction,
+            !setup.kept.is_empty() && has_springs(setup),
             "particles",
             "the contact history of a run cannot be given to LAMMPS",
             "contacts begin without history (name the material of the particles)",
@@ -94,8 +116,13 @@ pub fn leavable(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
     ])
 }
 
+/// Whether contacts have springs of friction.
+pub fn has_springs(setup: &Setup) -> bool {
+    setup.contacts.iter().any(|law| law.number("sliding_friction").is_some())
+}
+
 /// Walls that LAMMPS does not have.
-pub fn walls(setup: &Setup) -> Vec<Refusal> {
+fn walls(setup: &Setup) -> Vec<Refusal> {
     let mut all = Vec::new();
     for wall in &setup.walls {
         let what = format!("wall '{}'", wall.name);

@@ -6,10 +6,11 @@ use crate::dump::Parts;
 use crate::error::{LammpsError, Result};
 use crate::files::{DUMPS, FRAMES};
 use crate::folder::{self, Start};
+use crate::inflow::Inflow;
 use crate::job::Job;
 use crate::law::Target;
 use crate::process::{Engine, Place};
-use crate::refusal::Refusal;
+use crate::refusal::{self, Refusal};
 use dem::setup::Setup;
 use run::{Progress, RunError, RunFile, Schedule};
 use scene::keys::Sampling;
@@ -69,13 +70,15 @@ pub struct Prepared {
     pub schedule: Schedule,
     setup: Setup,
     arrivals: Vec<Arrival>,
+    /// What the user should know of the inlets.
+    notes: Vec<String>,
 }
 
 impl Prepared {
-    /// What the nearest that LAMMPS can do was taken for.
+    /// What the nearest that LAMMPS can do was taken for, and what is noteworthy of inlets.
     pub fn warnings(&self) -> Vec<String> {
         let one = |bent: &Refusal| format!("{}: {}: the nearest is taken", bent.what, bent.why);
-        self.deck.bent.iter().map(one).collect()
+        self.deck.bent.iter().map(one).chain(self.notes.iter().cloned()).collect()
     }
 
     /// The dumps that a run of it leaves, apart from the frames.
@@ -103,18 +106,25 @@ impl Prepared {
     }
 }
 
-/// Makes a scene ready.
+/// Makes a scene ready, whose inlets bring `inflow`.
 ///
 /// # Errors
 /// What LAMMPS cannot do, what the engine refuses.
-pub fn prepare(scene: &Scene, plan: &Plan, target: Target, ranks: usize) -> Result<Prepared> {
+pub fn prepare(
+    scene: &Scene,
+    plan: &Plan,
+    inflow: &Inflow,
+    target: Target,
+    ranks: usize,
+) -> Result<Prepared> {
     run::ready(scene, plan, None)?;
     let dt = dem::time_step(&plan.setup).map_err(RunError::from)?;
     let schedule = Schedule::new(scene, dt)?;
     let mut setup = plan.setup.clone();
-    let arrivals = arrivals::add(&mut setup, &plan.insertions, schedule.end())?;
+    let arrivals = arrivals::add(&mut setup, &plan.insertions, inflow, &schedule)?;
     let source = Source { scene, setup: &setup, arrivals: &arrivals, schedule: &schedule, target, ranks };
-    Ok(Prepared { deck: Deck::of(source)?, setup, arrivals, schedule })
+    let notes = inflow.warnings(schedule.end(), refusal::has_springs(&setup));
+    Ok(Prepared { deck: Deck::of(source)?, setup, arrivals, notes, schedule })
 }
 
 /// Runs a deck on LAMMPS, or reads its dump, and writes the run.

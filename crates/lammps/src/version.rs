@@ -32,11 +32,6 @@ impl Version {
         Some(Version { year: words.next()?.parse().ok()?, month, day })
     }
 
-    /// Whether neighbour lists can leave out a group that changes; later versions refuse it, and grains that come in push others.
-    pub fn excludes_dynamic_groups(self) -> bool {
-        self < Version::NEW_MODELS
-    }
-
     /// Whether `damping tsuji` is refused with a cohesive law.
     pub fn refuses_damped_jkr(self) -> bool {
         self >= Version::NEW_MODELS

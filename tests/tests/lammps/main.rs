@@ -8,6 +8,7 @@ mod faults;
 mod loads;
 mod many;
 mod resume;
+mod stages;
 
 use grainpipe_tests::tools::tool;
 use std::path::Path;

@@ -18,8 +18,8 @@ pub struct Args {
     /// The scene (TOML), - for stdin
     #[arg(value_name = "SCENE.toml")]
     pub scene: Source,
-    /// Walls (MCAP), - for stdin
-    #[arg(value_name = "WALLS.mcap")]
+    /// Walls and inlets (MCAP), - for stdin; inlets are read to their end before LAMMPS starts
+    #[arg(value_name = "WALLS|INLET.mcap")]
     pub inputs: Vec<Source>,
     /// Change a key of the scene, such as contact.0.restitution=0.3 (repeat for more)
     #[arg(long, value_name = "KEY=VALUE")]

@@ -6,7 +6,7 @@ mod kept;
 use anyhow::Context;
 use args::Args;
 use cli::{Report, Source, Stopped};
-use lammps::{Engine, LammpsError, Origin, Prepared, Settings, Start, Target, Version};
+use lammps::{Engine, Inflow, LammpsError, Origin, Prepared, Settings, Start, Target, Version};
 use run::{Progress, RunError};
 use scene::{Input, Plan, Scene, SceneError};
 use std::io::BufReader;
@@ -30,11 +30,14 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
     for source in &args.inputs {
         inputs.push(Input::open(&source.to_string(), source.open()?)?);
     }
-    let plan = scene.plan(inputs)?;
+    let mut plan = scene.plan(inputs)?;
     plan.warnings.iter().for_each(|note| cli::warn(note));
     let engine = engine(&args);
     let version = version(&args, &engine)?;
-    let prepare = |nearest: bool| lammps::prepare(&scene, &plan, Target { version, nearest }, engine.ranks);
+    lammps::refuse(&scene, &plan, args.nearest).with_context(|| args.scene.to_string())?;
+    let inflow = Inflow::read(&mut plan)?;
+    let prepare =
+        |nearest: bool| lammps::prepare(&scene, &plan, &inflow, Target { version, nearest }, engine.ranks);
     let prepared = prepare(args.nearest).with_context(|| args.scene.to_string())?;
     if args.nearest && prepare(false).is_ok() {
         cli::warn("--nearest changes nothing: LAMMPS has all that the scene asks for");
