@@ -20,6 +20,7 @@ use dem::Simulation;
 use dem::setup::{Entry, Particle, Setup, Zone};
 use geom::Vec3;
 use run::{RunError, Schedule};
+use scene::Plan;
 use scene::plan::Insertion;
 
 /// A step that does not come.
@@ -83,22 +84,17 @@ pub fn is_free(arrivals: &[Arrival], number: u64, time: f64) -> bool {
     found.map_or(true, |index| arrivals[index].free <= time)
 }
 
-/// Adds all grains that come in until the end to a setup, where they are at t = 0; in the order of their ids.
+/// Adds all grains of a plan that come in until the end to its setup, which has the members of clumps, where they are at t = 0; in the order of their ids.
 ///
 /// # Errors
 /// An insertion without space; grains that the engine refuses, too.
-pub fn add(
-    setup: &mut Setup,
-    insertions: &[Insertion],
-    inflow: &Inflow,
-    schedule: &Schedule,
-) -> Result<Vec<Arrival>> {
-    let mut entries = inserted(insertions, schedule.end())?;
+pub fn add(setup: &mut Setup, plan: &Plan, inflow: &Inflow, schedule: &Schedule) -> Result<Vec<Arrival>> {
+    let mut entries = inserted(&plan.insertions, schedule.end())?;
     let streamed = inflow.entries.iter().filter(|e| e.time <= schedule.end());
     entries.splice(0..0, streamed.copied());
     entries.sort_by(|a, b| a.time.total_cmp(&b.time));
     if !inflow.entries.is_empty() {
-        check(setup, &entries)?;
+        check(&plan.setup, &entries)?;
     }
     let mut all = Vec::with_capacity(entries.len());
     let mut particles = Vec::with_capacity(entries.len());

@@ -1,13 +1,19 @@
 //! A batch script for Slurm.
 
-use crate::files::{FINISHED, STATES, WHOLE};
+use crate::files::{FINISHED, OF_BODIES, STATES, WHOLE};
 use std::path::Path;
 
-/// The script of a scene on so many ranks.
-pub fn slurm(scene: &str, ranks: usize) -> String {
+/// The script of a scene on so many ranks; `rigid`: it has rigid bodies, whose file is written after the state.
+pub fn slurm(scene: &str, ranks: usize, rigid: bool) -> String {
     let stem = Path::new(scene).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
     let ([a, b], length) = (STATES, WHOLE.len() + 1);
+    let bodies = match rigid {
+        true => format!(
+            "  [ -e \"$state{OF_BODIES}\" ] && [ ! \"$state{OF_BODIES}\" -ot \"$state\" ] || continue\n"
+        ),
+        false => String::new(),
+    };
     format!(
         "#!/bin/bash\n#SBATCH --job-name={name}\n#SBATCH --ntasks={ranks}\n#SBATCH --output=slurm-%j.out\n\
          # Set the time limit and the partition of your cluster:  sbatch --time=12:00:00 --partition=NAME batch.sh\n\
@@ -16,7 +22,7 @@ pub fn slurm(scene: &str, ranks: usize) -> String {
          [ -e {FINISHED} ] && echo \"all steps are done\" && exit\n\
          options=() part=2\n\
          for state in $(ls -t {a} {b} 2> /dev/null); do\n  \
-           tail -c {length} \"$state\" | tr -d '\\0' | grep -q '{WHOLE}' || continue\n  \
+           tail -c {length} \"$state\" | tr -d '\\0' | grep -q '{WHOLE}' || continue\n{bodies}  \
            while [ -e \"frames-$part.dump\" ]; do part=$((part + 1)); done\n  \
            options=(-var state \"$state\" -var frames \"frames-$part.dump\" -var zone \"zone-$part.dump\" -var pairs \"pairs-$part.dump\" -var touches \"touches-$part.dump\")\n  \
            break\n\
@@ -33,7 +39,7 @@ mod tests {
 
     #[test]
     fn the_script_is_text() {
-        let script = slurm("a plant.toml", 3);
+        let script = slurm("a plant.toml", 3, false);
         assert!(script.starts_with("#!/bin/bash\n#SBATCH --job-name=a-plant\n#SBATCH --ntasks=3\n"));
         assert!(!script.contains('\0') && script.contains("tr -d '\\0'"), "Slurm refuses bytes of zero");
     }

@@ -1,6 +1,7 @@
 //! The data file: all atoms at t = 0, grains first, then wall spheres.
 
 use crate::arrivals::Arrival;
+use crate::clumps::{self, Numbers};
 use crate::types::{Kind, Types};
 use dem::setup::{Particle, Setup, WallShape};
 use geom::Vec3;
@@ -72,26 +73,28 @@ pub fn write(setup: &Setup, types: &Types, arrivals: &[Arrival], out: &mut impl 
     for (axis, name) in ["x", "y", "z"].iter().enumerate() {
         writeln!(out, "{:?} {:?} {name}lo {name}hi", low[axis], high[axis])?;
     }
-    writeln!(out, "\nAtoms # sphere: number, type, diameter, density, x, y, z\n")?;
+    let rigid = clumps::any(setup);
+    let images = if rigid { ", periods between it and its position in its clump" } else { "" };
+    writeln!(out, "\nAtoms # sphere: number, type, diameter, density, x, y, z{images}\n")?;
     each(setup, types, |a| {
-        let x = a.position;
-        writeln!(
-            out,
-            "{} {} {:?} {:?} {:?} {:?} {:?}",
-            a.number,
-            a.kind,
-            2.0 * a.radius,
-            a.density,
-            x.x,
-            x.y,
-            x.z
-        )
+        let (x, [i, j, k]) = wrapped(setup, a.position);
+        write!(out, "{} {} {:?} {:?}", a.number, a.kind, 2.0 * a.radius, a.density)?;
+        write!(out, " {:?} {:?} {:?}", x.x, x.y, x.z)?;
+        if rigid { writeln!(out, " {i} {j} {k}") } else { writeln!(out) }
     })?;
     writeln!(out, "\nVelocities # number, vx, vy, vz, wx, wy, wz\n")?;
     each(setup, types, |a| {
         let (v, w) = (a.velocity, a.spin);
         writeln!(out, "{} {:?} {:?} {:?} {:?} {:?} {:?}", a.number, v.x, v.y, v.z, w.x, w.y, w.z)
     })?;
+    if rigid {
+        let numbers = Numbers::new(setup);
+        writeln!(out, "\nMolecules # number, that of its clump\n")?;
+        each(setup, types, |a| {
+            let id = u32::try_from(a.number - 1).unwrap_or(u32::MAX);
+            writeln!(out, "{} {}", a.number, numbers.of(id))
+        })?;
+    }
     if arrivals.is_empty() {
         return Ok(());
     }
@@ -115,7 +118,7 @@ fn each(setup: &Setup, types: &Types, mut put: impl FnMut(Atom) -> io::Result<()
             kind: types.number(Kind::Grain, p.material, p.radius),
             radius: p.radius,
             density: density(p.material),
-            position: wrapped(setup, p.position),
+            position: p.position,
             velocity: p.velocity,
             spin: p.spin,
         })?;
@@ -132,7 +135,7 @@ fn each(setup: &Setup, types: &Types, mut put: impl FnMut(Atom) -> io::Result<()
                 kind: types.number(Kind::Wall(index), wall.material, *radius),
                 radius: *radius,
                 density: HEAVIER * heaviest / dem::mass(*radius, 1.0),
-                position: wrapped(setup, *centre),
+                position: *centre,
                 velocity: Vec3::zeros(),
                 spin: Vec3::zeros(),
             })?;
@@ -141,12 +144,14 @@ fn each(setup: &Setup, types: &Types, mut put: impl FnMut(Atom) -> io::Result<()
     Ok(())
 }
 
-/// A position inside the period.
-fn wrapped(setup: &Setup, mut position: Vec3) -> Vec3 {
+/// A position inside the period, and the periods between both.
+pub fn wrapped(setup: &Setup, mut position: Vec3) -> (Vec3, [i64; 3]) {
+    let mut images = [0; 3];
     for axis in 0..3 {
         if let Some((low, high)) = setup.periodic[axis] {
+            images[axis] = ((position[axis] - low) / (high - low)).floor() as i64;
             position[axis] = low + (position[axis] - low).rem_euclid(high - low);
         }
     }
-    position
+    (position, images)
 }

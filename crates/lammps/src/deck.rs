@@ -2,9 +2,10 @@
 
 use crate::arrivals::Arrival;
 use crate::batch;
+use crate::clumps;
 use crate::data;
 use crate::error::{LammpsError, Result};
-use crate::files::{BATCH, COLUMNS, DATA, FINISHED, FRAMES, INPUT, STATES, TOUCHES};
+use crate::files::{BATCH, BODIES, COLUMNS, DATA, FINISHED, FRAMES, INPUT, OF_BODIES, STATES, TOUCHES};
 use crate::law::{Target, coefficients};
 use crate::loads::Asked;
 use crate::outlet;
@@ -12,6 +13,7 @@ use crate::refusal::{self, Refusal};
 use crate::types::{Types, law};
 use crate::wall;
 use dem::setup::Setup;
+use geom::Vec3;
 use run::Schedule;
 use scene::Scene;
 use std::fmt::Write as _;
@@ -51,6 +53,9 @@ pub struct Deck {
     /// What of contacts it dumps.
     pub asked: Asked,
     types: Types,
+    rigid: bool,
+    /// What the velocity of clumps must be higher by at the start [m/s].
+    kick: Vec3,
     /// Grains that come in, by their ids.
     arrivals: Vec<Arrival>,
 }
@@ -95,16 +100,20 @@ impl Deck {
         let input = [
             head(&from),
             pairs,
-            groups(&types),
+            groups(&types, setup),
             motion(&from),
             walls,
             way,
             outlet::commands(setup),
-            tail(scene, from.schedule, &asked),
+            tail(scene, from.schedule, &asked, clumps::any(setup)),
         ]
         .concat();
-        let (batch, arrivals) = (batch::slurm(&scene.text.name, from.ranks), arrivals.to_vec());
-        Ok(Deck { input, batch, bent, asked, types, arrivals })
+        let rigid = clumps::any(setup);
+        let missing =
+            if target.version.starts_clumps_without_gravity() { 0.5 * from.schedule.dt } else { 0.0 };
+        let kick = setup.gravity * missing;
+        let (batch, arrivals) = (batch::slurm(&scene.text.name, from.ranks, rigid), arrivals.to_vec());
+        Ok(Deck { input, batch, bent, asked, types, rigid, kick, arrivals })
     }
 
     /// Whether the particles in a folder are those of this deck.
@@ -114,7 +123,18 @@ impl Deck {
     pub fn has_particles_of(&self, setup: &Setup, folder: &Path) -> std::io::Result<bool> {
         let mut data = Same::new(BufReader::new(File::open(folder.join(DATA))?));
         data::write(setup, &self.types, &self.arrivals, &mut data)?;
-        data.ends()
+        let same = data.ends()?;
+        if !same || !clumps::any(setup) {
+            return Ok(same);
+        }
+        let mut bodies = Same::new(BufReader::new(File::open(folder.join(BODIES))?));
+        clumps::write(setup, &self.kick, &mut bodies)?;
+        bodies.ends()
+    }
+
+    /// Whether it has rigid bodies.
+    pub fn is_rigid(&self) -> bool {
+        self.rigid
     }
 
     /// Writes the deck into a folder, which is made where it is missing.
@@ -127,6 +147,11 @@ impl Deck {
             let mut data = BufWriter::with_capacity(1 << 20, File::create(folder.join(DATA))?);
             data::write(setup, &self.types, &self.arrivals, &mut data)?;
             data.flush()?;
+            if self.rigid {
+                let mut bodies = BufWriter::new(File::create(folder.join(BODIES))?);
+                clumps::write(setup, &self.kick, &mut bodies)?;
+                bodies.flush()?;
+            }
             std::fs::write(folder.join(BATCH), &self.batch)?;
             // A folder with an input script has all of the deck.
             let part = folder.join(format!("{INPUT}.part"));
@@ -182,20 +207,32 @@ fn head(Source { scene, setup, schedule, arrivals, .. }: &Source) -> String {
     let name = Path::new(&scene.text.name).file_name().unwrap_or_default().to_string_lossy().into_owned();
     let smallest = setup.particles.iter().map(|p| p.radius).fold(f64::INFINITY, f64::min);
     // A property has to be there before the data are read, and after a state is.
-    let way = format!("\"fix way all property/atom {}\"", Arrival::NAMES);
-    let [fresh, resumed] = match arrivals.is_empty() {
-        true => [format!("\"read_data {DATA}\""), "\"read_restart ${state}\"".to_owned()],
-        false => [
-            format!("{way} \"read_data {DATA} fix way NULL Way\""),
-            format!("\"read_restart ${{state}}\" {way}"),
-        ],
+    let way = format!(" \"fix way all property/atom {}\"", Arrival::NAMES);
+    let (way, with_way) = if arrivals.is_empty() { (String::new(), "") } else { (way, " fix way NULL Way") };
+    let rigid = clumps::any(setup);
+    let (number, with_number) = match rigid {
+        true => (" \"fix number all property/atom mol ghost yes\"", " fix number NULL Molecules"),
+        false => ("", ""),
+    };
+    let (fresh, resumed) = match rigid {
+        true => (
+            format!(" \"variable bodies index {BODIES}\""),
+            format!(" \"variable bodies string ${{state}}{OF_BODIES}\""),
+        ),
+        false => (String::new(), String::new()),
+    };
+    let fresh = format!("{way}{number} \"read_data {DATA}{with_number}{with_way}\"{fresh}");
+    let resumed = format!(" \"read_restart ${{state}}\"{way}{number}{resumed}");
+    let reach = match rigid {
+        true => format!(" cutoff {:?}\natom_modify map hash", clumps::extent(setup)),
+        false => String::new(),
     };
     let skin = setup.skin.unwrap_or(0.4 * smallest);
     format!(
         "# {name}, written by dem-lammps: SI units; forces are sampled at instants.\n\
-         units si\natom_style sphere\nboundary {x} {y} {z}\nnewton off\ncomm_modify vel yes\n\
+         units si\natom_style sphere\nboundary {x} {y} {z}\nnewton off\ncomm_modify vel yes{reach}\n\
          variable state index none # or a state that was kept, to go on from it\n\
-         if \"${{state}} == none\" then {fresh} \"variable first index yes\" else {resumed} \"variable first index no\"\n\
+         if \"${{state}} == none\" then{fresh} \"variable first index yes\" else{resumed} \"variable first index no\"\n\
          neighbor {skin:?} bin\nneigh_modify delay 0 every 1 check yes\ntimestep {:?}\n\
          variable t equal step*dt\n\n# contacts: overlap, dashpot, friction\npair_style granular\n",
         schedule.dt
@@ -235,36 +272,43 @@ fn pairs(
     Ok(text)
 }
 
-fn groups(types: &Types) -> String {
+fn groups(types: &Types, setup: &Setup) -> String {
     let numbers: Vec<String> = types.grains().map(|(n, _)| n.to_string()).collect();
     let mut text = format!("\ngroup grains type {}\n", numbers.join(" "));
     numbers.iter().for_each(|n| text += &format!("group type{n} type {n}\n"));
+    if clumps::any(setup) {
+        text += "group bodies molecule > 0\ngroup loose subtract grains bodies\n";
+        text += &clumps::commands(setup);
+    }
     text
 }
 
 fn motion(Source { setup, arrivals, .. }: &Source) -> String {
+    let loose = if clumps::any(setup) { "loose" } else { "grains" };
     let (g, size) = (setup.gravity, setup.gravity.norm());
     let gravity = match size > 0.0 {
-        true => format!("fix gravity grains gravity {size:?} vector {:?} {:?} {:?}\n", g.x, g.y, g.z),
+        true => format!("fix gravity {loose} gravity {size:?} vector {:?} {:?} {:?}\n", g.x, g.y, g.z),
         false => String::new(),
     };
     if arrivals.is_empty() {
-        return format!("fix move grains nve/sphere\n{gravity}");
+        return format!("fix move {loose} nve/sphere\n{gravity}");
     }
     format!(
         "\n# grains that come in feel nothing until they are free\n\
-         compute way grains property/atom {}\n\
+         compute way {loose} property/atom {}\n\
          variable waits atom \"step*dt<c_way[1]\"\nvariable moves atom \"step*dt>=c_way[1]\"\n\
-         group waiting dynamic grains var waits every 1\ngroup free dynamic grains var moves every 1\n\
+         group waiting dynamic {loose} var waits every 1\ngroup free dynamic {loose} var moves every 1\n\
          fix come waiting nve\nfix move free nve/sphere\n{gravity}",
         Arrival::NAMES
     )
 }
 
 /// Output and the run: frame k is at the step nearest to k × `every`, the last step is one.
-fn tail(scene: &Scene, schedule: &Schedule, asked: &Asked) -> String {
+fn tail(scene: &Scene, schedule: &Schedule, asked: &Asked, rigid: bool) -> String {
     let Schedule { dt, last, every, .. } = schedule;
     let report = (last / 200).max(1);
+    // A temperature would need more degrees of freedom than two bodies have.
+    let energy = if rigid { "atoms" } else { "ke" };
     let keep = scene.keys.output.checkpoint.map_or(*last as f64 / KEPT, |s| s / dt).clamp(1.0, *last as f64);
     let (keep, [a, b], loads) = (keep.round(), STATES, asked.commands());
     format!(
@@ -274,7 +318,7 @@ fn tail(scene: &Scene, schedule: &Schedule, asked: &Asked) -> String {
          dump frames grains custom 1 ${{frames}} {COLUMNS}\n\
          dump_modify frames every v_next first ${{first}} flush yes format float %.17g\n\
          {loads}\n\
-         thermo {report}\nthermo_style custom step ke\nthermo_modify lost error flush yes\n\
+         thermo {report}\nthermo_style custom step {energy}\nthermo_modify lost error flush yes\n\
          # states, in turn: lmp -in run.in -var state {a} -var frames frames-2.dump goes on from one\n\
          variable keep index {keep}\nif \"${{state}} == {a}\" then \"variable states string '{b} {a}'\" else \"variable states string '{a} {b}'\"\n\
          if \"${{keep}} > 0\" then \"restart ${{keep}} ${{states}}\"\nrun {last} upto\n\

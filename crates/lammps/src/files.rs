@@ -4,6 +4,10 @@
 pub const INPUT: &str = "run.in";
 /// All atoms at t = 0.
 pub const DATA: &str = "particles.data";
+/// Rigid bodies at t = 0.
+pub const BODIES: &str = "bodies.info";
+/// What the name of a state is given for the rigid bodies that belong to it.
+pub const OF_BODIES: &str = ".rigid";
 /// The batch script.
 pub const BATCH: &str = "batch.sh";
 /// The dump of frames, unless a variable says otherwise.

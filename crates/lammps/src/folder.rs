@@ -13,7 +13,7 @@
 use crate::deck::Deck;
 use crate::dump::Parts;
 use crate::error::{LammpsError, Result};
-use crate::files::{DUMPS, FINISHED, FRAMES, INPUT, LOCK, STATES, WHOLE};
+use crate::files::{DUMPS, FINISHED, FRAMES, INPUT, LOCK, OF_BODIES, STATES, WHOLE};
 use dem::setup::Setup;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -98,7 +98,8 @@ pub fn ready(deck: &Deck, setup: &Setup, folder: &Path) -> Result<Start> {
     }
     same(deck, setup, folder)?;
     let finished = folder.join(FINISHED).exists();
-    let (state, count) = (newest(folder).map_err(failed)?, parts(&folder.join(FRAMES)).count());
+    let (state, count) =
+        (newest(folder, deck.is_rigid()).map_err(failed)?, parts(&folder.join(FRAMES)).count());
     if finished || state.is_some() {
         return Ok(Start { state, number: count + 1, finished, ..fresh });
     }
@@ -135,16 +136,30 @@ pub fn has_run(folder: &Path) -> bool {
     STATES.iter().chain(&DUMPS).any(|name| folder.join(name).exists())
 }
 
-/// The newest state that is whole.
-fn newest(folder: &Path) -> io::Result<Option<&'static str>> {
+/// The newest state that is whole; `rigid`: with its rigid bodies.
+fn newest(folder: &Path, rigid: bool) -> io::Result<Option<&'static str>> {
     let mut found = Vec::new();
     for name in STATES {
         let path = folder.join(name);
-        if path.exists() && is_whole(&mut File::open(&path)?)? {
+        if path.exists() && is_whole(&mut File::open(&path)?)? && (!rigid || has_bodies(&path)?) {
             found.push((fs::metadata(&path)?.modified()?, name));
         }
     }
     Ok(found.into_iter().max().map(|newest| newest.1))
+}
+
+/// Whether the file of bodies that LAMMPS writes after a state belongs to it, and has a line for each.
+fn has_bodies(state: &Path) -> io::Result<bool> {
+    let mut name = state.as_os_str().to_owned();
+    name.push(OF_BODIES);
+    let bodies = Path::new(&name);
+    if !bodies.exists() || fs::metadata(bodies)?.modified()? < fs::metadata(state)?.modified()? {
+        return Ok(false);
+    }
+    let text = fs::read_to_string(bodies)?;
+    let mut lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let count = lines.next().and_then(|line| line.trim().parse().ok());
+    Ok(text.ends_with('\n') && count == Some(lines.count()))
 }
 
 fn is_whole(state: &mut File) -> io::Result<bool> {
@@ -210,13 +225,23 @@ mod tests {
         assert_eq!(part(Path::new("a/frames.dump"), 3), Path::new("a/frames-3.dump"));
         let folder = tempfile::tempdir().unwrap();
         let put = |name: &str, text: &[u8]| fs::write(folder.path().join(name), text).unwrap();
-        assert_eq!(newest(folder.path()).unwrap(), None);
+        assert_eq!(newest(folder.path(), false).unwrap(), None);
         put("state_1", &[b"numbers", WHOLE.as_bytes(), &[0]].concat());
         std::thread::sleep(Duration::from_millis(20));
         put("state_2", b"numb");
-        assert_eq!(newest(folder.path()).unwrap(), Some("state_1"));
+        assert_eq!(newest(folder.path(), false).unwrap(), Some("state_1"));
         put("state_2", &[b"numbers", WHOLE.as_bytes(), &[0]].concat());
-        assert_eq!(newest(folder.path()).unwrap(), Some("state_2"));
+        assert_eq!(newest(folder.path(), false).unwrap(), Some("state_2"));
+        // A state of rigid bodies counts with theirs alone: written after it, and to their end.
+        let newest_rigid = || newest(folder.path(), true).unwrap();
+        assert_eq!(newest_rigid(), None);
+        put("state_1.rigid", b"# bodies\n\n2\n1 0.5\n2 0.5\n");
+        assert_eq!(newest_rigid(), Some("state_1"));
+        put("state_2.rigid", b"# bodies\n\n2\n1 0.5\n");
+        assert_eq!(newest_rigid(), Some("state_1"));
+        std::thread::sleep(Duration::from_millis(20));
+        put("state_1", &[b"later", WHOLE.as_bytes(), &[0]].concat());
+        assert_eq!(newest_rigid(), None);
         // Only dumps of a deck have parts.
         for name in ["frames.dump", "frames-2.dump", "heap.dump", "heap-2.dump"] {
             put(name, b"");

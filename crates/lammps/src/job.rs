@@ -1,6 +1,7 @@
 //! Frames, and crossings between them, on their way from LAMMPS to the run file.
 
 use crate::arrivals::Arrival;
+use crate::clumps::Tracker;
 use crate::data::number_of;
 use crate::dump::{Block, Dump, Ended, Parts};
 use crate::error::{LammpsError, Result};
@@ -35,6 +36,8 @@ pub struct Job<'a> {
     arrivals: &'a [Arrival],
     schedule: &'a Schedule,
     asked: &'a Asked,
+    /// Clumps from frame to frame.
+    clumps: Tracker<'a>,
     /// Step of the last frame.
     pub last: Option<u64>,
     /// How many crossed a storage plane.
@@ -60,6 +63,7 @@ impl<'a> Job<'a> {
             arrivals,
             schedule,
             asked,
+            clumps: Tracker::new(setup),
             last: None,
             crossings: 0,
             report,
@@ -186,7 +190,8 @@ impl Job<'_> {
                 Err(ended) => return Ok(ended),
             };
             found.map_or(Ok(()), |found| self.cross(file, found))?;
-            file.frame(time, &self.there)?;
+            let bodies = self.clumps.at(time, &self.particles);
+            file.frame(time, &self.there, &bodies)?;
             if self.asked.contacts {
                 file.contacts(time, &contacts)?;
             }
@@ -277,7 +282,11 @@ impl Job<'_> {
             }
             let three = |k: usize| Vec3::new(values[k], values[k + 1], values[k + 2]);
             let p = &mut self.particles[index];
-            (p.position, p.velocity, p.spin) = (three(0), three(3), three(6));
+            p.position = three(0);
+            // At the start those of the scene hold: clumps may have been given a kick.
+            if frame.step > 0 {
+                (p.velocity, p.spin) = (three(3), three(6));
+            }
         }
         Ok(())
     }

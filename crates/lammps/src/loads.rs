@@ -297,7 +297,7 @@ fn particle<'a>(now: &Now<'a>, number: u64) -> Result<&'a Particle, Ended> {
 }
 
 /// The shortest of the vectors that a periodic domain makes of one.
-fn nearest(setup: &Setup, mut apart: Vec3) -> Vec3 {
+pub fn nearest(setup: &Setup, mut apart: Vec3) -> Vec3 {
     for axis in 0..3 {
         if let Some((low, high)) = setup.periodic[axis] {
             apart[axis] -= (high - low) * (apart[axis] / (high - low)).round();

@@ -1,5 +1,6 @@
 //! What of a scene LAMMPS cannot do, by name, with the nearest that it can.
 
+use crate::clumps;
 use crate::error::{LammpsError, Result};
 use crate::outlet;
 use dem::setup::{Precision, Setup, WallShape, ZoneMotion};
@@ -56,6 +57,7 @@ pub fn parts(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
     let mut all = scene(keys, setup);
     all.extend(walls(setup));
     all.extend(outlet::refused(setup));
+    all.extend(clumps::refused(setup));
     all
 }
 
@@ -63,12 +65,6 @@ pub fn parts(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
 fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
     let ends = "a LAMMPS run ends at time.until";
     all_of([
-        (
-            !setup.clumps.shapes.is_empty(),
-            "clump",
-            "rigid clumps are not written for LAMMPS",
-            "use spheres with rolling_resistance",
-        ),
         (!keys.bond.is_empty(), "bond", "bonds are not written for LAMMPS", "use law = \"jkr\", or dem-run"),
         (
             setup.inlets.iter().any(|zone| zone.motion == ZoneMotion::Recorded),

@@ -1,6 +1,7 @@
 //! A run on LAMMPS, written as it comes.
 
 use crate::arrivals::{self, Arrival};
+use crate::clumps;
 use crate::deck::{Deck, Source};
 use crate::dump::Parts;
 use crate::error::{LammpsError, Result};
@@ -121,7 +122,8 @@ pub fn prepare(
     let dt = dem::time_step(&plan.setup).map_err(RunError::from)?;
     let schedule = Schedule::new(scene, dt)?;
     let mut setup = plan.setup.clone();
-    let arrivals = arrivals::add(&mut setup, &plan.insertions, inflow, &schedule)?;
+    clumps::add_members(&mut setup);
+    let arrivals = arrivals::add(&mut setup, plan, inflow, &schedule)?;
     let source = Source { scene, setup: &setup, arrivals: &arrivals, schedule: &schedule, target, ranks };
     let notes = inflow.warnings(schedule.end(), refusal::has_springs(&setup));
     Ok(Prepared { deck: Deck::of(source)?, setup, arrivals, notes, schedule })

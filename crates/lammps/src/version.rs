@@ -32,6 +32,11 @@ impl Version {
         Some(Version { year: words.next()?.parse().ok()?, month, day })
     }
 
+    /// Whether rigid bodies get no gravity in the first half of the first step.
+    pub fn starts_clumps_without_gravity(self) -> bool {
+        self < Version::NEW_MODELS
+    }
+
     /// Whether `damping tsuji` is refused with a cohesive law.
     pub fn refuses_damped_jkr(self) -> bool {
         self >= Version::NEW_MODELS

@@ -5,7 +5,7 @@ use crate::frames::{self, ParticleRows, WallHead};
 use crate::schedule::Schedule;
 use crate::start::{Head, in_file};
 use dem::setup::{Crossing, Particle, Wall, WallShape};
-use dem::{ContactRecord, WallForce};
+use dem::{ClumpState, ContactRecord, WallForce};
 use geom::Vec3;
 use record::{FRAME, LogMessage, Watermark, json, nanoseconds, topic};
 use scene::keys::Precision;
@@ -22,6 +22,8 @@ pub struct RunFile<W: Write> {
     walls_move: bool,
     precision: Precision,
     clusters: Vec<(u32, u32)>,
+    /// Whether the scene has clumps.
+    clumps: bool,
     /// Frames written.
     pub frames: u64,
 }
@@ -53,6 +55,7 @@ impl<W: Write> RunFile<W> {
             walls: setup.walls.clone(),
             precision: scene.keys.output.precision,
             clusters: setup.clusters.clone(),
+            clumps: !setup.clumps.shapes.is_empty(),
             frames: 0,
         };
         file.write_walls(0.0)?;
@@ -81,17 +84,21 @@ impl<W: Write> RunFile<W> {
         }
     }
 
-    /// Writes a frame, and sends it on.
+    /// Writes a frame, and sends it on; `clumps` by id.
     ///
     /// # Errors
     /// A write that fails.
-    pub fn frame(&mut self, time: f64, particles: &[Particle]) -> Result<()> {
+    pub fn frame(&mut self, time: f64, particles: &[Particle], clumps: &[ClumpState]) -> Result<()> {
         if self.walls_move && time > 0.0 {
             self.write_walls(time)?;
         }
         let (precision, clusters) = (self.precision, &self.clusters[..]);
-        let rows = ParticleRows { all: particles, precision, clumps: None, clusters };
+        let rows =
+            ParticleRows { all: particles, precision, clumps: self.clumps.then_some(clumps), clusters };
         self.writer.rows(topic::PARTICLES, nanoseconds(time), FRAME, &rows)?;
+        if self.clumps {
+            self.writer.points(topic::BODIES, nanoseconds(time), FRAME, frames::clump_rows(clumps))?;
+        }
         self.frames += 1;
         Ok(self.writer.flush_chunk()?)
     }
