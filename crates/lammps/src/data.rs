@@ -1,6 +1,7 @@
 //! The data file: all atoms at t = 0, grains first, then wall spheres.
 
 use crate::arrivals::Arrival;
+use crate::bonds::Bonds;
 use crate::clumps::{self, Numbers};
 use crate::types::{Kind, Types};
 use dem::setup::{Particle, Setup, WallShape};
@@ -66,19 +67,29 @@ pub fn bounds(setup: &Setup) -> [Vec3; 2] {
 ///
 /// # Errors
 /// A write that fails.
-pub fn write(setup: &Setup, types: &Types, arrivals: &[Arrival], out: &mut impl Write) -> io::Result<()> {
+pub fn write(
+    setup: &Setup,
+    types: &Types,
+    (arrivals, bonds): (&[Arrival], &Bonds),
+    out: &mut impl Write,
+) -> io::Result<()> {
     let [low, high] = bounds(setup);
     writeln!(out, "Grains and wall spheres of a scene, written by dem-lammps\n")?;
     writeln!(out, "{} atoms\n{} atom types\n", setup.particles.len() + walls(setup), types.0.len().max(1))?;
+    if bonds.any() {
+        writeln!(out, "{}", bonds.counts())?;
+    }
     for (axis, name) in ["x", "y", "z"].iter().enumerate() {
         writeln!(out, "{:?} {:?} {name}lo {name}hi", low[axis], high[axis])?;
     }
     let rigid = clumps::any(setup);
     let images = if rigid { ", periods between it and its position in its clump" } else { "" };
-    writeln!(out, "\nAtoms # sphere: number, type, diameter, density, x, y, z{images}\n")?;
+    // Of bonded spheres the number of a molecule comes before the type.
+    let (style, molecule) = if bonds.any() { ("bpm/sphere", " 0") } else { ("sphere", "") };
+    writeln!(out, "\nAtoms # {style}: number, type, diameter, density, x, y, z{images}\n")?;
     each(setup, types, |a| {
         let (x, [i, j, k]) = wrapped(setup, a.position);
-        write!(out, "{} {} {:?} {:?}", a.number, a.kind, 2.0 * a.radius, a.density)?;
+        write!(out, "{}{molecule} {} {:?} {:?}", a.number, a.kind, 2.0 * a.radius, a.density)?;
         write!(out, " {:?} {:?} {:?}", x.x, x.y, x.z)?;
         if rigid { writeln!(out, " {i} {j} {k}") } else { writeln!(out) }
     })?;
@@ -94,6 +105,9 @@ pub fn write(setup: &Setup, types: &Types, arrivals: &[Arrival], out: &mut impl 
             let id = u32::try_from(a.number - 1).unwrap_or(u32::MAX);
             writeln!(out, "{} {}", a.number, numbers.of(id))
         })?;
+    }
+    if bonds.any() {
+        bonds.write(out)?;
     }
     if arrivals.is_empty() {
         return Ok(());

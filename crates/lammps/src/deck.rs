@@ -2,10 +2,12 @@
 
 use crate::arrivals::Arrival;
 use crate::batch;
+use crate::bonds::Bonds;
 use crate::clumps;
 use crate::data;
 use crate::error::{LammpsError, Result};
-use crate::files::{BATCH, BODIES, COLUMNS, DATA, FINISHED, FRAMES, INPUT, OF_BODIES, STATES, TOUCHES};
+use crate::files::{BATCH, BODIES, BONDS, COLUMNS, DATA, FINISHED, FRAMES, INPUT, STATES, TOUCHES};
+use crate::head;
 use crate::law::{Target, coefficients};
 use crate::loads::Asked;
 use crate::outlet;
@@ -33,6 +35,8 @@ pub struct Source<'a> {
     pub setup: &'a Setup,
     /// Those that come in.
     pub arrivals: &'a [Arrival],
+    /// Its bonds.
+    pub bonds: &'a Bonds,
     /// Which steps are frames.
     pub schedule: &'a Schedule,
     /// Version, and whether the nearest is taken.
@@ -58,6 +62,7 @@ pub struct Deck {
     kick: Vec3,
     /// Grains that come in, by their ids.
     arrivals: Vec<Arrival>,
+    bonds: Bonds,
 }
 
 impl Deck {
@@ -67,7 +72,7 @@ impl Deck {
     /// Everything in the scene that LAMMPS cannot do.
     pub fn of(from: Source) -> Result<Deck> {
         let Source { scene, setup, arrivals, target, .. } = from;
-        let (mut refused, mut bent) = (refusal::parts(&scene.keys, setup), Vec::new());
+        let (mut refused, mut bent) = (refusal::parts(&scene.keys, setup, target), Vec::new());
         if target.nearest { &mut bent } else { &mut refused }.extend(refusal::leavable(&scene.keys, setup));
         refused.extend(particles(setup));
         let types = Types::of(setup).unwrap_or_else(|refusal| {
@@ -98,7 +103,7 @@ impl Deck {
         // After all other forces.
         let way = if arrivals.is_empty() { String::new() } else { Arrival::commands(&setup.gravity) };
         let input = [
-            head(&from),
+            head::commands(&from),
             pairs,
             groups(&types, setup),
             motion(&from),
@@ -113,7 +118,7 @@ impl Deck {
             if target.version.starts_clumps_without_gravity() { 0.5 * from.schedule.dt } else { 0.0 };
         let kick = setup.gravity * missing;
         let (batch, arrivals) = (batch::slurm(&scene.text.name, from.ranks, rigid), arrivals.to_vec());
-        Ok(Deck { input, batch, bent, asked, types, rigid, kick, arrivals })
+        Ok(Deck { input, batch, bent, asked, types, rigid, kick, arrivals, bonds: from.bonds.clone() })
     }
 
     /// Whether the particles in a folder are those of this deck.
@@ -122,8 +127,13 @@ impl Deck {
     /// A file that cannot be read.
     pub fn has_particles_of(&self, setup: &Setup, folder: &Path) -> std::io::Result<bool> {
         let mut data = Same::new(BufReader::new(File::open(folder.join(DATA))?));
-        data::write(setup, &self.types, &self.arrivals, &mut data)?;
-        let same = data.ends()?;
+        data::write(setup, &self.types, (&self.arrivals, &self.bonds), &mut data)?;
+        let mut same = data.ends()?;
+        if same && self.bonds.any() {
+            let mut bonds = Same::new(BufReader::new(File::open(folder.join(BONDS))?));
+            self.bonds.commands(&mut bonds)?;
+            same = bonds.ends()?;
+        }
         if !same || !clumps::any(setup) {
             return Ok(same);
         }
@@ -145,8 +155,13 @@ impl Deck {
         let write = || {
             std::fs::create_dir_all(folder)?;
             let mut data = BufWriter::with_capacity(1 << 20, File::create(folder.join(DATA))?);
-            data::write(setup, &self.types, &self.arrivals, &mut data)?;
+            data::write(setup, &self.types, (&self.arrivals, &self.bonds), &mut data)?;
             data.flush()?;
+            if self.bonds.any() {
+                let mut bonds = BufWriter::new(File::create(folder.join(BONDS))?);
+                self.bonds.commands(&mut bonds)?;
+                bonds.flush()?;
+            }
             if self.rigid {
                 let mut bodies = BufWriter::new(File::create(folder.join(BODIES))?);
                 clumps::write(setup, &self.kick, &mut bodies)?;
@@ -201,44 +216,6 @@ fn particles(setup: &Setup) -> Option<Refusal> {
     (highest > data::MOST_ATOMS).then(|| Refusal::new("particles", why, "give smaller ids (first_id)"))
 }
 
-fn head(Source { scene, setup, schedule, arrivals, .. }: &Source) -> String {
-    let edge = |periodic: &Option<(f64, f64)>| if periodic.is_some() { "p" } else { "m" };
-    let [x, y, z] = [0, 1, 2].map(|axis| edge(&setup.periodic[axis]));
-    let name = Path::new(&scene.text.name).file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let smallest = setup.particles.iter().map(|p| p.radius).fold(f64::INFINITY, f64::min);
-    // A property has to be there before the data are read, and after a state is.
-    let way = format!(" \"fix way all property/atom {}\"", Arrival::NAMES);
-    let (way, with_way) = if arrivals.is_empty() { (String::new(), "") } else { (way, " fix way NULL Way") };
-    let rigid = clumps::any(setup);
-    let (number, with_number) = match rigid {
-        true => (" \"fix number all property/atom mol ghost yes\"", " fix number NULL Molecules"),
-        false => ("", ""),
-    };
-    let (fresh, resumed) = match rigid {
-        true => (
-            format!(" \"variable bodies index {BODIES}\""),
-            format!(" \"variable bodies string ${{state}}{OF_BODIES}\""),
-        ),
-        false => (String::new(), String::new()),
-    };
-    let fresh = format!("{way}{number} \"read_data {DATA}{with_number}{with_way}\"{fresh}");
-    let resumed = format!(" \"read_restart ${{state}}\"{way}{number}{resumed}");
-    let reach = match rigid {
-        true => format!(" cutoff {:?}\natom_modify map hash", clumps::extent(setup)),
-        false => String::new(),
-    };
-    let skin = setup.skin.unwrap_or(0.4 * smallest);
-    format!(
-        "# {name}, written by dem-lammps: SI units; forces are sampled at instants.\n\
-         units si\natom_style sphere\nboundary {x} {y} {z}\nnewton off\ncomm_modify vel yes{reach}\n\
-         variable state index none # or a state that was kept, to go on from it\n\
-         if \"${{state}} == none\" then{fresh} \"variable first index yes\" else{resumed} \"variable first index no\"\n\
-         neighbor {skin:?} bin\nneigh_modify delay 0 every 1 check yes\ntimestep {:?}\n\
-         variable t equal step*dt\n\n# contacts: overlap, dashpot, friction\npair_style granular\n",
-        schedule.dt
-    )
-}
-
 /// Coefficients of each pair of types that can meet.
 fn pairs(
     setup: &Setup,
@@ -283,22 +260,23 @@ fn groups(types: &Types, setup: &Setup) -> String {
     text
 }
 
-fn motion(Source { setup, arrivals, .. }: &Source) -> String {
+fn motion(Source { setup, arrivals, bonds, .. }: &Source) -> String {
     let loose = if clumps::any(setup) { "loose" } else { "grains" };
+    let style = if bonds.any() { "nve/bpm/sphere" } else { "nve/sphere" };
     let (g, size) = (setup.gravity, setup.gravity.norm());
     let gravity = match size > 0.0 {
         true => format!("fix gravity {loose} gravity {size:?} vector {:?} {:?} {:?}\n", g.x, g.y, g.z),
         false => String::new(),
     };
     if arrivals.is_empty() {
-        return format!("fix move {loose} nve/sphere\n{gravity}");
+        return format!("fix move {loose} {style}\n{gravity}");
     }
     format!(
         "\n# grains that come in feel nothing until they are free\n\
          compute way {loose} property/atom {}\n\
          variable waits atom \"step*dt<c_way[1]\"\nvariable moves atom \"step*dt>=c_way[1]\"\n\
          group waiting dynamic {loose} var waits every 1\ngroup free dynamic {loose} var moves every 1\n\
-         fix come waiting nve\nfix move free nve/sphere\n{gravity}",
+         fix come waiting nve\nfix move free {style}\n{gravity}",
         Arrival::NAMES
     )
 }

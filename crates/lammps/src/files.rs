@@ -4,6 +4,8 @@
 pub const INPUT: &str = "run.in";
 /// All atoms at t = 0.
 pub const DATA: &str = "particles.data";
+/// Style and coefficients of bonds.
+pub const BONDS: &str = "bonds.in";
 /// Rigid bodies at t = 0.
 pub const BODIES: &str = "bodies.info";
 /// What the name of a state is given for the rigid bodies that belong to it.

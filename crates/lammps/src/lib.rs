@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`inflow`] reads what inlets bring, [`arrivals`] has it come in from a [`depot`]; [`refusal`] lists what LAMMPS cannot do; [`law`] turns contact laws into coefficients of `pair_style granular` and `fix wall/gran`; [`deck`] is the text of
-//! a run, [`data`] its atoms, [`clumps`] its rigid bodies, [`files`] what they are called; [`folder`] keeps what a later start goes on from; [`process`] starts LAMMPS and keeps its last
+//! a run, [`data`] its atoms, [`clumps`] its rigid bodies, [`bonds`] its bonds, [`files`] what they are called; [`folder`] keeps what a later start goes on from; [`process`] starts LAMMPS and keeps its last
 //! words; [`dump`] reads what it writes, [`outlet`] finds crossings in it, [`loads`] what contacts bear; [`job`] writes all of that as [`run::RunFile`].
 //!
 //! Sources: the documentation of LAMMPS (`pair_style granular`, `fix wall/gran`, `fix wall/gran/region`, `fix move`, `dump custom`) and its
@@ -13,6 +13,7 @@
 
 mod arrivals;
 mod batch;
+mod bonds;
 mod clumps;
 mod damping;
 mod data;
@@ -23,6 +24,7 @@ mod error;
 mod files;
 mod folder;
 mod grain;
+mod head;
 mod inflow;
 mod job;
 mod law;

@@ -1,7 +1,9 @@
 //! What of a scene LAMMPS cannot do, by name, with the nearest that it can.
 
+use crate::bonds;
 use crate::clumps;
 use crate::error::{LammpsError, Result};
+use crate::law::Target;
 use crate::outlet;
 use dem::setup::{Precision, Setup, WallShape, ZoneMotion};
 use scene::keys::SceneKeys;
@@ -44,20 +46,21 @@ fn all_of(cases: impl IntoIterator<Item = Case>) -> Vec<Refusal> {
 ///
 /// # Errors
 /// What LAMMPS cannot do.
-pub fn refuse(scene: &Scene, plan: &Plan, nearest: bool) -> Result<()> {
-    let mut refused = parts(&scene.keys, &plan.setup);
-    if !nearest {
+pub fn refuse(scene: &Scene, plan: &Plan, target: Target) -> Result<()> {
+    let mut refused = parts(&scene.keys, &plan.setup, target);
+    if !target.nearest {
         refused.extend(leavable(&scene.keys, &plan.setup));
     }
     if refused.is_empty() { Ok(()) } else { Err(LammpsError::Cannot(refused)) }
 }
 
 /// Everything in a scene apart from laws and particles that LAMMPS does not have.
-pub fn parts(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
+pub fn parts(keys: &SceneKeys, setup: &Setup, target: Target) -> Vec<Refusal> {
     let mut all = scene(keys, setup);
     all.extend(walls(setup));
     all.extend(outlet::refused(setup));
     all.extend(clumps::refused(setup));
+    all.extend(bonds::refused(setup, target));
     all
 }
 
@@ -65,7 +68,6 @@ pub fn parts(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
 fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
     let ends = "a LAMMPS run ends at time.until";
     all_of([
-        (!keys.bond.is_empty(), "bond", "bonds are not written for LAMMPS", "use law = \"jkr\", or dem-run"),
         (
             setup.inlets.iter().any(|zone| zone.motion == ZoneMotion::Recorded),
             "inlet.motion = \"recorded\"",

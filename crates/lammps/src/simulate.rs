@@ -1,6 +1,7 @@
 //! A run on LAMMPS, written as it comes.
 
 use crate::arrivals::{self, Arrival};
+use crate::bonds::{self, Bonds};
 use crate::clumps;
 use crate::deck::{Deck, Source};
 use crate::dump::Parts;
@@ -124,7 +125,17 @@ pub fn prepare(
     let mut setup = plan.setup.clone();
     clumps::add_members(&mut setup);
     let arrivals = arrivals::add(&mut setup, plan, inflow, &schedule)?;
-    let source = Source { scene, setup: &setup, arrivals: &arrivals, schedule: &schedule, target, ranks };
+    let refused = !bonds::refused(&plan.setup, target).is_empty();
+    let bonds = if refused { Bonds::default() } else { Bonds::of(&plan.setup, &scene.text.name)? };
+    let source = Source {
+        scene,
+        setup: &setup,
+        arrivals: &arrivals,
+        bonds: &bonds,
+        schedule: &schedule,
+        target,
+        ranks,
+    };
     let notes = inflow.warnings(schedule.end(), refusal::has_springs(&setup));
     Ok(Prepared { deck: Deck::of(source)?, setup, arrivals, notes, schedule })
 }

@@ -1,5 +1,6 @@
 //! The version of a LAMMPS program.
 
+use dem::setup::Setup;
 use std::fmt;
 
 /// Date of a release.
@@ -19,6 +20,8 @@ const MONTHS: [&str; 12] =
 impl Version {
     /// That of Debian 12, which decks are written for where no program is asked.
     pub const DEBIAN: Version = Version { year: 2021, month: 9, day: 29 };
+    /// The first with bonds that need not break.
+    const BONDS: Version = Version { year: 2023, month: 3, day: 28 };
     /// The first with the granular models of today.
     const NEW_MODELS: Version = Version { year: 2022, month: 12, day: 1 };
 
@@ -30,6 +33,16 @@ impl Version {
         let month = words.next()?;
         let month = MONTHS.iter().position(|name| *name == month)? as u8 + 1;
         Some(Version { year: words.next()?.parse().ok()?, month, day })
+    }
+
+    /// One that can have run a scene whose dumps are read.
+    pub fn that_ran(setup: &Setup) -> Version {
+        if setup.bonds.is_empty() { Version::DEBIAN } else { Version::BONDS }
+    }
+
+    /// Whether bonds of the package BPM need not break.
+    pub fn has_bonds(self) -> bool {
+        self >= Version::BONDS
     }
 
     /// Whether rigid bodies get no gravity in the first half of the first step.

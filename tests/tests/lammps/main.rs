@@ -2,6 +2,7 @@
 //!
 //! What needs LAMMPS is skipped visibly where `lmp` is missing; scripts play its faults.
 
+mod bonds;
 mod clumps;
 mod contacts;
 mod decks;

@@ -33,8 +33,9 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
     let mut plan = scene.plan(inputs)?;
     plan.warnings.iter().for_each(|note| cli::warn(note));
     let engine = engine(&args);
-    let version = version(&args, &engine)?;
-    lammps::refuse(&scene, &plan, args.nearest).with_context(|| args.scene.to_string())?;
+    let version = version(&args, &engine, &plan)?;
+    lammps::refuse(&scene, &plan, Target { version, nearest: args.nearest })
+        .with_context(|| args.scene.to_string())?;
     let inflow = Inflow::read(&mut plan)?;
     let prepare =
         |nearest: bool| lammps::prepare(&scene, &plan, &inflow, Target { version, nearest }, engine.ranks);
@@ -82,9 +83,12 @@ fn engine(args: &Args) -> Engine {
     }
 }
 
-/// The version of the program; that of Debian where a deck is written or read and no program is named.
-fn version(args: &Args, engine: &Engine) -> anyhow::Result<Version> {
-    let needs = args.write_deck.is_none() && args.read_dump.is_none() && !args.check;
+/// The version of the program; that of Debian where a deck is written and no program is named; one that can have written a dump that is read.
+fn version(args: &Args, engine: &Engine, plan: &Plan) -> anyhow::Result<Version> {
+    if args.read_dump.is_some() {
+        return Ok(Version::that_ran(&plan.setup));
+    }
+    let needs = args.write_deck.is_none() && !args.check;
     if needs || args.lmp.is_some() { Ok(engine.version()?) } else { Ok(Version::DEBIAN) }
 }
 
