@@ -104,7 +104,7 @@ fn clumps_in_flight_are_where_they_are_in_dem_run() {
 /// A body of four spheres, strikes a floor obliquely with one of them; largest difference of velocities over the speed.
 fn impact(restitution: f64, friction: f64, stiffness: f64, steps: f64) -> f64 {
     let (speed, mass) = (1e-3, 2500.0 * 4e-7);
-    let time = 3.0 * (mass / stiffness as f64).sqrt();
+    let time = 3.0 * (mass / stiffness).sqrt();
     let (dt, every, v) = (time / steps, time / 20.0, speed);
     let head = HEAD.split("[[clump]]").next().unwrap().replace("0.002", &format!("{every:?}"));
     let head = head
