@@ -61,7 +61,7 @@ pub(crate) fn nth(numbers: &[f64], at: usize) -> f64 {
         .fold(none, |(low, high), &x| (low.min(x), high.max(x)))
         .reduce(none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
     let per_number = INTERVALS as f64 / (most - least);
-    // As the numbers rise, so does what is rounded here; what is no number at all counts as 0.
+    // As the numbers rise, so does what is rounded here; NaN counts as 0.
     let interval = |x: f64| (((x - least) * per_number) as usize).min(INTERVALS - 1);
     let counted = numbers.par_chunks(SHORT).map(|part| {
         let mut counts = [0_usize; INTERVALS];

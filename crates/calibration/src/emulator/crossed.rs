@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 /// Parts that are left out in turn.
 const FOLDS: usize = 10;
 
-/// As [`Gp::left_out`], with lengths fitted anew without the points of each part: lengths of few points follow every one of them, and would seem to
+/// As [`Gp::left_out`], with lengths fitted again without the points of each part: lengths of few points follow every one of them, and would seem to
 /// predict it. Stone (1974), doi:10.1111/j.2517-6161.1974.tb00994.x.
 pub(crate) fn crossed(inputs: &DMatrix<f64>, y: &DVector<f64>) -> Option<Vec<f64>> {
     let n = inputs.nrows();

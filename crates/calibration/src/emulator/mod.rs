@@ -27,7 +27,7 @@ const MOST: usize = 10;
 const LEAST: f64 = 0.05;
 /// Deviation of a process over the trials, in deviations of data and specimens, below which it only scatters.
 const FLAT: f64 = 0.1;
-/// Trials a parameter, below which lengths are fitted anew where points are left out.
+/// Trials a parameter, below which lengths are fitted again where points are left out.
 const FEW: usize = 10;
 /// Trials near the data, at least.
 const NEAR: usize = 60;
