@@ -1,7 +1,8 @@
 //! The script that makes a point: an ordinary dem-run, and the line that makes its input.
 //!
 //! The last line of the script writes `made`: the stamp of the point and the exit code. A script that was killed leaves
-//! none, and is run again.
+//! none, and is run again. Where several run the same script, one makes the point, and the others wait for it: the system ends
+//! the lock of a process that is killed (`flock`; a machine without it has no lock).
 
 use super::grid::Setting;
 use crate::study::Work;
@@ -89,6 +90,12 @@ impl Job {
             format!("# cost-curve: {}", self.name),
             "set -o pipefail".to_owned(),
             format!("cd {here} && PATH={tools}:\"$PATH\" && export PATH || exit 1"),
+            format!("exec 9>> {}", self.path("lock")),
+            "if command -v flock > /dev/null && ! flock -n 9; then flock 9".to_owned(),
+            format!("  case \"$(cat {} 2> /dev/null)\" in", self.path("made")),
+            format!("    {stamp}' 0' | {stamp}' 3') exit 0 ;;", stamp = quoted(&self.stamp)),
+            "  esac".to_owned(),
+            "fi".to_owned(),
             format!("rm -f {old}; : > {}", self.path("begun")),
         ];
         let made = |code: &str| format!("echo {} {code} > {}", self.stamp, self.path("made"));
@@ -157,6 +164,45 @@ mod tests {
         assert_eq!(unfilled(&line), Some("{zeta}"));
         assert_eq!(unfilled("awk '{print $1}' ${x} { a; }"), None);
         assert_eq!((quoted("a=[0,1]"), quoted("it's")), ("'a=[0,1]'".to_owned(), "'it'\\''s'".to_owned()));
+    }
+
+    /// Three processes run the script of one point, with a dem-run that notes each start: one makes it, and a point that was made is made again when it
+    /// is asked for.
+    #[test]
+    fn a_point_that_several_processes_want_is_made_once() {
+        let folder = std::env::temp_dir().join(format!("curve-script.{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let (tool, log) = (folder.join("dem-run"), folder.join("log"));
+        std::fs::write(&tool, format!("#!/bin/sh\necho run >> {}; sleep 0.5\n", log.display())).unwrap();
+        let status = std::process::Command::new("chmod").arg("+x").arg(&tool).status();
+        assert!(status.unwrap().success());
+        let job = Job {
+            setting: 0,
+            repeat: 0,
+            shorten: 0.0,
+            folder: folder.clone(),
+            stamp: "0a1b".to_owned(),
+            name: "a point".to_owned(),
+            scene: "s.toml".to_owned(),
+            inputs: Vec::new(),
+            sets: Vec::new(),
+            threads: "1".to_owned(),
+            each: None,
+        };
+        let script = folder.join("run.sh");
+        std::fs::write(&script, job.script(&folder, &folder, Work::Steps, None)).unwrap();
+        let start = || std::process::Command::new("bash").arg(&script).spawn().unwrap();
+        let runs = || std::fs::read_to_string(&log).unwrap().lines().count();
+        let together: Vec<_> = (0..3).map(|_| start()).collect();
+        for mut process in together {
+            assert!(process.wait().unwrap().success());
+        }
+        let locks = std::process::Command::new("flock").arg("--version").output().is_ok();
+        assert!(runs() == if locks { 1 } else { 3 }, "{} runs", runs());
+        assert_eq!(std::fs::read_to_string(job.file("made")).unwrap(), "0a1b 0\n");
+        let before = runs();
+        assert!(start().wait().unwrap().success() && runs() == before + 1);
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

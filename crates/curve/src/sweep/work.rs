@@ -103,7 +103,10 @@ pub fn scripts<'a>(
     for job in &open {
         let write = || {
             std::fs::create_dir_all(&job.folder)?;
-            std::fs::write(job.file("run.sh"), job.script(tools, &here, work, counter))
+            // Whole at once: another process may be running it.
+            let new = job.file(&format!("run.sh.{}", std::process::id()));
+            std::fs::write(&new, job.script(tools, &here, work, counter))?;
+            std::fs::rename(&new, job.file("run.sh"))
         };
         let what = format!("{}: cannot write there: choose another --dir", job.folder.display());
         write().map_err(CurveError::io(what))?;
