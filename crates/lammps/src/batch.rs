@@ -10,7 +10,9 @@ pub fn slurm(scene: &str, ranks: usize, rigid: bool) -> String {
     let ([a, b], length) = (STATES, WHOLE.len() + 1);
     let bodies = match rigid {
         true => format!(
-            "  [ -e \"$state{OF_BODIES}\" ] && [ ! \"$state{OF_BODIES}\" -ot \"$state\" ] || continue\n"
+            "  [ -e \"$state{OF_BODIES}\" ] && [ ! \"$state{OF_BODIES}\" -ot \"$state\" ] || continue\n  \
+             # Its first line has the number of the others.\n  \
+             awk '!/^#/ && NF {{ if (count == \"\") count = $1; else lines++ }} END {{ exit count == \"\" || count != lines + 0 }}' \"$state{OF_BODIES}\" || continue\n"
         ),
         false => String::new(),
     };

@@ -97,11 +97,18 @@ impl Bonds {
         sorted.sort_unstable_by_key(|p| p.id);
         let mut known: HashMap<[u64; 12], usize> = HashMap::new();
         for bond in made {
-            let [Some(a), Some(b)] = bond.ids.map(|id| found(&sorted, id)) else { continue };
-            let Some(numbers) = law(setup, [a, b]).and_then(|law| coefficients(setup, law, &bond, [a, b]))
-            else {
-                continue;
+            let ends = bond.ids.map(|id| found(&sorted, id));
+            let numbers = match ends {
+                [Some(a), Some(b)] => {
+                    law(setup, &bond, [a, b]).and_then(|law| coefficients(setup, law, &bond, [a, b]))
+                }
+                _ => None,
             };
+            let numbers = numbers.ok_or_else(|| {
+                let why =
+                    format!("grains {} and {}: no [[bond]] has made their bond", bond.ids[0], bond.ids[1]);
+                LammpsError::Scene(SceneError::file(name, &why, "use dem-run"))
+            })?;
             let kind = *known.entry(numbers.map(f64::to_bits)).or_insert_with(|| {
                 bonds.kinds.push(numbers);
                 bonds.kinds.len()
@@ -164,12 +171,12 @@ fn found<'a>(sorted: &[&'a Particle], id: u32) -> Option<&'a Particle> {
     sorted.binary_search_by_key(&id, |p| p.id).ok().map(|at| sorted[at])
 }
 
-/// The law that bonds two grains.
-fn law<'a>(setup: &'a Setup, [a, b]: [&Particle; 2]) -> Option<&'a Bond> {
-    let [c, d] = [a, b].map(|p| cluster_of(&setup.clusters, p.id));
-    let materials =
-        |law: &&Bond| law.between == (a.material, b.material) || law.between == (b.material, a.material);
-    setup.bonds.iter().filter(materials).find(|law| law.clusters.allow(c, d))
+/// The law that has made a bond: the first that fits, as in the engine.
+fn law<'a>(setup: &'a Setup, bond: &BondState, [a, b]: [&Particle; 2]) -> Option<&'a Bond> {
+    let clusters = [a, b].map(|p| cluster_of(&setup.clusters, p.id));
+    // The length has fewer digits than the positions.
+    let open = bond.size[0] * (1.0 - 1e-12) - a.radius - b.radius;
+    setup.bonds.iter().find(|law| law.joins([a.material, b.material], clusters, open))
 }
 
 /// Coefficients of a bond in the order of LAMMPS; `None` unless it is a beam.

@@ -121,25 +121,36 @@ impl Deck {
         Ok(Deck { input, batch, bent, asked, types, rigid, kick, arrivals, bonds: from.bonds.clone() })
     }
 
-    /// Whether the particles in a folder are those of this deck.
+    /// Its files that the input script reads.
+    pub fn files(&self) -> Vec<&'static str> {
+        let some = [(DATA, true), (BONDS, self.bonds.any()), (BODIES, self.rigid)];
+        some.into_iter().filter(|(_, is_there)| *is_there).map(|(name, _)| name).collect()
+    }
+
+    /// Writes what one of them holds.
+    fn put(&self, name: &str, setup: &Setup, out: &mut impl Write) -> std::io::Result<()> {
+        match name {
+            BONDS => self.bonds.commands(out),
+            BODIES => clumps::write(setup, &self.kick, out),
+            _ => data::write(setup, &self.types, (&self.arrivals, &self.bonds), out),
+        }
+    }
+
+    /// The first of them that is another one in a folder.
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub fn has_particles_of(&self, setup: &Setup, folder: &Path) -> std::io::Result<bool> {
-        let mut data = Same::new(BufReader::new(File::open(folder.join(DATA))?));
-        data::write(setup, &self.types, (&self.arrivals, &self.bonds), &mut data)?;
-        let mut same = data.ends()?;
-        if same && self.bonds.any() {
-            let mut bonds = Same::new(BufReader::new(File::open(folder.join(BONDS))?));
-            self.bonds.commands(&mut bonds)?;
-            same = bonds.ends()?;
+    pub fn differs(&self, setup: &Setup, folder: &Path) -> std::io::Result<Option<&'static str>> {
+        for name in self.files() {
+            let open = File::open(folder.join(name));
+            let open = open.map_err(|e| std::io::Error::new(e.kind(), format!("{name}: {e}")))?;
+            let mut same = Same::new(BufReader::new(open));
+            self.put(name, setup, &mut same)?;
+            if !same.ends()? {
+                return Ok(Some(name));
+            }
         }
-        if !same || !clumps::any(setup) {
-            return Ok(same);
-        }
-        let mut bodies = Same::new(BufReader::new(File::open(folder.join(BODIES))?));
-        clumps::write(setup, &self.kick, &mut bodies)?;
-        bodies.ends()
+        Ok(None)
     }
 
     /// Whether it has rigid bodies.
@@ -154,18 +165,10 @@ impl Deck {
     pub fn write(&self, setup: &Setup, folder: &Path) -> Result<()> {
         let write = || {
             std::fs::create_dir_all(folder)?;
-            let mut data = BufWriter::with_capacity(1 << 20, File::create(folder.join(DATA))?);
-            data::write(setup, &self.types, (&self.arrivals, &self.bonds), &mut data)?;
-            data.flush()?;
-            if self.bonds.any() {
-                let mut bonds = BufWriter::new(File::create(folder.join(BONDS))?);
-                self.bonds.commands(&mut bonds)?;
-                bonds.flush()?;
-            }
-            if self.rigid {
-                let mut bodies = BufWriter::new(File::create(folder.join(BODIES))?);
-                clumps::write(setup, &self.kick, &mut bodies)?;
-                bodies.flush()?;
+            for name in self.files() {
+                let mut out = BufWriter::with_capacity(1 << 20, File::create(folder.join(name))?);
+                self.put(name, setup, &mut out)?;
+                out.flush()?;
             }
             std::fs::write(folder.join(BATCH), &self.batch)?;
             // A folder with an input script has all of the deck.

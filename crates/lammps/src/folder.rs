@@ -125,9 +125,9 @@ pub fn same(deck: &Deck, setup: &Setup, folder: &Path) -> Result<()> {
     if there != deck.input {
         return other("its run.in has another length".to_owned());
     }
-    match deck.has_particles_of(setup, folder).map_err(failed)? {
-        true => Ok(()),
-        false => other("its particles.data has other grains".to_owned()),
+    match deck.differs(setup, folder).map_err(failed)? {
+        None => Ok(()),
+        Some(name) => other(format!("its {name} has other content")),
     }
 }
 

@@ -18,15 +18,15 @@ pub struct Inflow {
 }
 
 impl Inflow {
-    /// Reads all inlets of a plan to their end, and takes them out of it; the plan gets the clusters of the grains.
+    /// Reads all inlets of a plan until a time [s], and takes them out of it; the plan gets the clusters of the grains.
     ///
     /// # Errors
     /// A stream that breaks off or is out of order.
-    pub fn read(plan: &mut Plan) -> Result<Inflow> {
+    pub fn read(plan: &mut Plan, until: f64) -> Result<Inflow> {
         let mut inflow = Inflow::default();
         for (index, inlet) in std::mem::take(&mut plan.inlets).into_iter().enumerate() {
             let mut stream = InletStream::new(inlet)?;
-            while let Some(arrival) = stream.next_until(f64::INFINITY)? {
+            while let Some(arrival) = stream.next_until(until)? {
                 match arrival {
                     Arrival::Enter(entry) => inflow.entries.push(entry),
                     Arrival::History { .. } => inflow.histories += 1,

@@ -114,9 +114,10 @@ pub fn leavable(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
     ])
 }
 
-/// Whether contacts have springs of friction.
+/// Whether contacts have springs.
 pub fn has_springs(setup: &Setup) -> bool {
-    setup.contacts.iter().any(|law| law.number("sliding_friction").is_some())
+    let keys = ["sliding_friction", "rolling_resistance", "twisting_resistance"];
+    setup.contacts.iter().any(|law| keys.iter().any(|key| law.number(key).is_some()))
 }
 
 /// Walls that LAMMPS does not have.

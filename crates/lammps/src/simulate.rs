@@ -96,6 +96,11 @@ impl Prepared {
         folder::ready(&self.deck, &self.setup, folder)
     }
 
+    /// Files of the deck that its input script reads.
+    pub fn files(&self) -> Vec<&'static str> {
+        self.deck.files()
+    }
+
     /// Writes the deck into a folder; into one where a deck has run, only if it is the same.
     ///
     /// # Errors

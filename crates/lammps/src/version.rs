@@ -20,8 +20,8 @@ const MONTHS: [&str; 12] =
 impl Version {
     /// That of Debian 12, which decks are written for where no program is asked.
     pub const DEBIAN: Version = Version { year: 2021, month: 9, day: 29 };
-    /// The first with bonds that need not break.
-    const BONDS: Version = Version { year: 2023, month: 3, day: 28 };
+    /// The first whose bonds are tested.
+    const BONDS: Version = Version { year: 2025, month: 7, day: 22 };
     /// The first with the granular models of today.
     const NEW_MODELS: Version = Version { year: 2022, month: 12, day: 1 };
 
@@ -35,8 +35,8 @@ impl Version {
         Some(Version { year: words.next()?.parse().ok()?, month, day })
     }
 
-    /// One that can have run a scene whose dumps are read.
-    pub fn that_ran(setup: &Setup) -> Version {
+    /// One that can run a scene, where none is asked.
+    pub fn that_runs(setup: &Setup) -> Version {
         if setup.bonds.is_empty() { Version::DEBIAN } else { Version::BONDS }
     }
 

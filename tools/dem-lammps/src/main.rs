@@ -36,7 +36,7 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
     let version = version(&args, &engine, &plan)?;
     lammps::refuse(&scene, &plan, Target { version, nearest: args.nearest })
         .with_context(|| args.scene.to_string())?;
-    let inflow = Inflow::read(&mut plan)?;
+    let inflow = Inflow::read(&mut plan, scene.keys.time.until.unwrap_or(0.0))?;
     let prepare =
         |nearest: bool| lammps::prepare(&scene, &plan, &inflow, Target { version, nearest }, engine.ranks);
     let prepared = prepare(args.nearest).with_context(|| args.scene.to_string())?;
@@ -55,7 +55,8 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
         prepared.write(folder)?;
         let folder = folder.display();
         return Ok(Report::new(format!(
-            "{folder}: run.in, particles.data and batch.sh; run it there with lmp -in run.in"
+            "{folder}: run.in, {} and batch.sh; run it there with lmp -in run.in",
+            prepared.files().join(", ")
         )));
     }
     simulate(&args, &scene, &plan, &prepared, &engine)
@@ -83,13 +84,17 @@ fn engine(args: &Args) -> Engine {
     }
 }
 
-/// The version of the program; that of Debian where a deck is written and no program is named; one that can have written a dump that is read.
+/// The version of the program. Where a deck is written, a dump read or a scene checked without one, a version that can run the scene.
 fn version(args: &Args, engine: &Engine, plan: &Plan) -> anyhow::Result<Version> {
+    let usual = Version::that_runs(&plan.setup);
     if args.read_dump.is_some() {
-        return Ok(Version::that_ran(&plan.setup));
+        return Ok(usual);
     }
-    let needs = args.write_deck.is_none() && !args.check;
-    if needs || args.lmp.is_some() { Ok(engine.version()?) } else { Ok(Version::DEBIAN) }
+    match (args.lmp.is_some(), args.check, args.write_deck.is_some()) {
+        (false, true, _) => Ok(engine.version().unwrap_or(usual)),
+        (false, _, true) => Ok(usual),
+        _ => Ok(engine.version()?),
+    }
 }
 
 /// Adds the name of the output to a write error.

@@ -6,17 +6,22 @@ use nalgebra::{DMatrix, DVector};
 /// Parts that are left out in turn.
 const FOLDS: usize = 10;
 
-/// As [`Gp::left_out`], with lengths fitted again without the points of each part: lengths of few points follow every one of them, and would seem to
+/// Least variance of a prediction, over that of all points: where one point alone differs, the others promise to be exact.
+const LEAST: f64 = 1e-4;
+
+/// As [`Gp::left_out`] of the `whole`, with lengths fitted again without the points of each part: lengths of few points follow every one of them, and would seem to
 /// predict it. Stone (1974), doi:10.1111/j.2517-6161.1974.tb00994.x.
-pub(crate) fn crossed(inputs: &DMatrix<f64>, y: &DVector<f64>) -> Option<Vec<f64>> {
+pub(crate) fn crossed(whole: &Gp, inputs: &DMatrix<f64>, y: &DVector<f64>) -> Option<Vec<f64>> {
     let n = inputs.nrows();
     let mut off = vec![0.0; n];
+    let least = LEAST * y.variance();
     for fold in 0..FOLDS.min(n) {
         let rest: Vec<usize> = (0..n).filter(|i| i % FOLDS != fold).collect();
-        let gp = Gp::fit(&inputs.select_rows(&rest), &y.select_rows(&rest), None)?;
+        let (some, some_y) = (inputs.select_rows(&rest), y.select_rows(&rest));
+        let gp = Gp::fit_with(&some, &some_y, None, whole.is_linear())?;
         for i in (fold..n).step_by(FOLDS) {
             let p = gp.predict(&inputs.row(i).iter().copied().collect::<Vec<_>>());
-            off[i] = (y[i] - p.mean) / (p.variance + gp.noise).sqrt();
+            off[i] = (y[i] - p.mean) / (p.variance + gp.noise).max(least).sqrt();
         }
     }
     Some(off)
@@ -26,6 +31,16 @@ pub(crate) fn crossed(inputs: &DMatrix<f64>, y: &DVector<f64>) -> Option<Vec<f64
 mod tests {
     use super::*;
     use geom::random::{generator, unit};
+
+    /// One trial alone differs from all others: the emulator becomes uncertain, not useless.
+    #[test]
+    fn one_point_that_differs_has_a_bounded_weight() {
+        let mut random = generator(3, 1, 0);
+        let x = DMatrix::from_fn(12, 3, |_, _| unit(&mut random));
+        let y = DVector::from_fn(12, |i, _| if i == 7 { 1.0 } else { 0.0 });
+        let off = crossed(&Gp::fit(&x, &y, None).unwrap(), &x, &y).unwrap();
+        assert!(off.iter().all(|o| o.abs() < 1e3) && off[7].abs() > 2.0, "{off:?}");
+    }
 
     /// Twelve points of a function of three parameters that bends: how often is it within 1.64 deviations of its emulator, which 90 % should be?
     #[test]
@@ -39,7 +54,7 @@ mod tests {
             let y = DVector::from_fn(12, |i, _| f(&at(&x, i)));
             let gp = Gp::fit(&x, &y, None).unwrap();
             let square = |off: Vec<f64>| off.iter().map(|o| o * o).sum::<f64>() / 12.0;
-            let factors = [square(crossed(&x, &y).unwrap()), square(gp.left_out().unwrap())];
+            let factors = [square(crossed(&gp, &x, &y).unwrap()), square(gp.left_out().unwrap())];
             for z in (0..50).map(|_| [0; 3].map(|_| unit(&mut random))) {
                 let p = gp.predict(&z);
                 let [crossed, left_out] = factors

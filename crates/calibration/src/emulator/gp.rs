@@ -149,8 +149,18 @@ fn loss(inputs: &DMatrix<f64>, y: &DVector<f64>, h: &DMatrix<f64>, logs: &[f64])
 impl Gp {
     /// Fits a process to the rows of `inputs`; `start` are the lengths of an earlier fit.
     pub fn fit(inputs: &DMatrix<f64>, y: &DVector<f64>, start: Option<&Logs>) -> Option<Gp> {
+        let linear = inputs.nrows() >= 2 * inputs.ncols() + 4;
+        Gp::fit_with(inputs, y, start, linear)
+    }
+
+    /// The same with a trend that is linear, or one constant.
+    pub fn fit_with(
+        inputs: &DMatrix<f64>,
+        y: &DVector<f64>,
+        start: Option<&Logs>,
+        linear: bool,
+    ) -> Option<Gp> {
         let (n, d) = (inputs.nrows(), inputs.ncols());
-        let linear = n >= 2 * d + 4;
         let few: Vec<usize> = if n <= MOST_FITTED {
             (0..n).collect()
         } else {
@@ -219,6 +229,11 @@ impl Gp {
         let q = self.chol.inverse() - &along * self.trend.solve(&along.transpose());
         let off = |i: usize| self.alpha[i] / (q[(i, i)].max(1e-300) * self.scale).sqrt();
         Some((0..self.alpha.len()).map(off).collect())
+    }
+
+    /// Whether its trend is linear.
+    pub fn is_linear(&self) -> bool {
+        self.beta.len() > 1
     }
 
     /// Standard deviation of the mean over the points.

@@ -99,7 +99,7 @@ impl Emulator {
         let mut components: Vec<Gp> = (0..scores.nrows()).into_par_iter().map(fit).collect::<Option<_>>()?;
         let few = lessons.inputs.nrows() < FEW * lessons.inputs.ncols();
         let left_out = |(k, gp): (usize, &Gp)| match few {
-            true => crossed(&lessons.inputs, &scores.row(k).transpose()),
+            true => crossed(gp, &lessons.inputs, &scores.row(k).transpose()).or_else(|| gp.left_out()),
             false => gp.left_out(),
         };
         let left_out: Vec<Vec<f64>> =

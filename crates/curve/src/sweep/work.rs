@@ -1,12 +1,12 @@
 //! Makes the points that are not finished, and reads their results.
 
-use super::script::{Counter, Job};
+use super::script::{BUSY, Counter, Job, NOW};
 use crate::study::{CurveError, Work};
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::SeqCst};
 use std::time::SystemTime;
 
 /// The result of a run.
@@ -131,12 +131,32 @@ pub fn run(
     ends: &(dyn Fn() + Sync),
 ) -> Result<(), CurveError> {
     let (next, trouble) = (AtomicUsize::new(0), Mutex::new(None));
+    let busy: Vec<AtomicBool> = jobs.iter().map(|_| AtomicBool::new(false)).collect();
     let one = || {
-        while let Some(job) = jobs.get(next.fetch_add(1, SeqCst)).filter(|_| !stop()) {
-            begins(job);
-            let status = Command::new("bash").arg(job.file("run.sh")).stdin(Stdio::null()).status();
-            if let (Err(why), Ok(mut trouble)) = (status, trouble.lock()) {
-                *trouble = Some(CurveError::io("bash: cannot be started: install it")(why));
+        // First those that no other process makes; then the others are waited for.
+        loop {
+            let turn = next.fetch_add(1, SeqCst);
+            let (now, at) = (turn < jobs.len(), turn % jobs.len().max(1));
+            let Some(job) = jobs.get(at).filter(|_| turn < 2 * jobs.len() && !stop()) else { break };
+            if !now && !busy[at].load(SeqCst) {
+                continue;
+            }
+            if now {
+                begins(job);
+            }
+            let mut script = Command::new("bash");
+            script.arg(job.file("run.sh")).args(now.then_some(NOW)).stdin(Stdio::null());
+            match script.status() {
+                Ok(status) if now && status.code() == Some(BUSY) => {
+                    busy[at].store(true, SeqCst);
+                    continue;
+                }
+                Ok(_) => {}
+                Err(why) => {
+                    if let Ok(mut trouble) = trouble.lock() {
+                        *trouble = Some(CurveError::io("bash: cannot be started: install it")(why));
+                    }
+                }
             }
             ends();
         }

@@ -44,6 +44,11 @@ impl Bond {
             replaces_contact,
         }
     }
+
+    /// Whether it may bond two particles of these materials and clusters whose surfaces are `open` apart [m].
+    pub fn joins(&self, [a, b]: [u16; 2], [c, d]: [u32; 2], open: f64) -> bool {
+        (self.between == (a, b) || self.between == (b, a)) && self.clusters.allow(c, d) && open <= self.gap
+    }
 }
 
 /// Which two particles may be bonded, by their clusters. Particles without a cluster count as one cluster.

@@ -137,7 +137,7 @@ impl Particles {
             select_by(quads, &mut self.angular_acceleration, order, 0);
         }
         select_by(quads, &mut self.home, order, 0);
-        // New pages cost many threads more than the sorting does, because they wait for each other, and few threads almost nothing.
+        // With many threads, page faults of new memory take longer than the sorting; with few they are negligible.
         if rayon::current_num_threads() <= FEW_THREADS {
             *spare = SpareColumns::default();
         }

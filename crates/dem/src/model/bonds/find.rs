@@ -87,15 +87,13 @@ pub fn find(
     }
     for [i, j] in near(cell, grains, gap) {
         let (a, b) = (&grains[i as usize], &grains[j as usize]);
-        let is_of = |law: &&Bond| {
-            (law.between == (a.material, b.material) || law.between == (b.material, a.material))
-                && law.clusters.allow(a.cluster, b.cluster)
-        };
         let arm = cell.nearest(a.position - b.position);
         let open = arm.norm() - a.end.radius - b.end.radius;
         // Positions have so many digits.
         let digits = 4.0 * f64::EPSILON * (a.position.amax() + b.position.amax() + arm.norm());
-        let Some(n) = laws.iter().position(|law| is_of(law) && open <= law.gap + digits) else { continue };
+        let (materials, clusters) = ([a.material, b.material], [a.cluster, b.cluster]);
+        let joins = |law: &&Bond| law.joins(materials, clusters, open - digits);
+        let Some(n) = laws.iter().position(joins) else { continue };
         let rows = [a.row, b.row];
         if is_bonded(rows) {
             continue;
