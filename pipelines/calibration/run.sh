@@ -87,3 +87,7 @@ calibrate "$here/karlsruhe.toml" --jobs "$jobs" --dir "$out/karlsruhe" -q --plot
 "$here/../stages/section.sh" "$page" karlsruhe < "$out/karlsruhe.md"
 "$here/karlsruhe.sh" "$out/karlsruhe.csv" "$out/predicted" > "$out/predicted.md"
 "$here/../stages/section.sh" "$page" karlsruhe-predicted < "$out/predicted.md"
+
+# Sinter in the sinter box: one slope of an experiment whose frictions and mouth are not known.
+calibrate "$here/sinter-box.toml" --jobs "$jobs" --dir "$out/sinter-box" -q --plot "$docs/calibration-sinter.png" --words "$out/sinter-box.md" -o "$out/sinter-box.csv"
+"$here/../stages/section.sh" "$page" sinter-box < "$out/sinter-box.md"

@@ -67,7 +67,7 @@ fn all_forms_of_the_box_have_the_same_friction() {
     };
     let full = contacts("sinter-box.toml");
     assert_eq!(full.len(), 8, "{full:?}");
-    for name in ["sinter-slice.toml", "small.toml"] {
+    for name in ["sinter-slice.toml", "small.toml", "../calibration/sinter-slice.toml"] {
         assert_eq!(contacts(name), full, "{name}");
     }
 }
@@ -77,7 +77,8 @@ fn all_forms_of_the_box_have_the_same_friction() {
 fn the_surfaces_are_drawn_by_their_script() {
     let forms = [("", ""), ("slice-", "low=-0.024 high=0.024")];
     let small = ("small-", "scale=0.35 mouth=0.03 low=-0.008 high=0.008");
-    for (prefix, settings) in forms.into_iter().chain([small]) {
+    let of_calibration = ("../calibration/sinter-", "low=-0.008 high=0.008");
+    for (prefix, settings) in forms.into_iter().chain([small, of_calibration]) {
         for part in ["hopper", "chute", "box"] {
             let done = line(&folder(), &format!("./geometry.sh {part} {settings}"));
             let file = format!("{prefix}{part}.ply");

@@ -175,7 +175,7 @@ mod tests {
         assert_eq!((quoted("a=[0,1]"), quoted("it's")), ("'a=[0,1]'".to_owned(), "'it'\\''s'".to_owned()));
     }
 
-    /// Three processes run the script of one point, with a dem-run that notes each start: one makes it, and who does not want to wait is told.
+    /// Three processes run the script of one point, with a dem-run that notes each start: one makes it, and one that does not want to wait ends with [`BUSY`].
     #[test]
     fn a_point_that_several_processes_want_is_made_once() {
         let folder = std::env::temp_dir().join(format!("curve-script.{}", std::process::id()));
