@@ -271,13 +271,11 @@ mod tests {
             history: ContactHistory::default(),
         };
         let mut writer = Writer::new(Vec::new(), &Provenance::default()).unwrap();
-        for (time, pieces) in [(1, &[0..2][..]), (2, &[10..13, 20..21])] {
+        for (time, ids) in [(1, 0..2), (2, 10..13), (2, 20..21)] {
             let table = csv("a.csv", b"x,y,z,radius\n0,1,2,0.5\n").unwrap();
             writer.points(topic::PARTICLES, time, FRAME, table).unwrap();
-            for ids in pieces {
-                let rows: Vec<KeptContact> = ids.clone().map(contact).collect();
-                writer.points(topic::HISTORY, time, FRAME, to_table(&rows)).unwrap();
-            }
+            let rows: Vec<KeptContact> = ids.map(contact).collect();
+            writer.points(topic::HISTORY, time, FRAME, to_table(&rows)).unwrap();
         }
         let read = last_frame("run.mcap".to_owned(), &writer.finish().unwrap()).unwrap();
         let ids: Vec<u32> = read.kept.0.iter().map(|k| k.id).collect();
