@@ -41,10 +41,13 @@ run_LAMMPS() {
 # The deck that dem-lammps writes: the very same scene, dashpots and floor included; the race's own deck has LAMMPS' fastest style for this law.
 export_deck() {
     dem-lammps "$pile" -q --set output.every=1e9 --set neighbours.skin=$skin --until "$(at $((warm + steps)))" --write-deck export
-    sed -e '/^dump/d' -e "s/^thermo [0-9]*$/thermo $steps/" -e "s/^run [0-9]*$/run $warm\nrun $steps/" export/run.in > export/race.in
+    # No dumps; two runs, of which the second is timed.
+    sed -e '/^dump/d' -e "s/^thermo [0-9]*$/thermo $steps/" \
+        -e "s/^run [0-9]* upto$/run $warm upto\nrun $((warm + steps)) upto/" export/run.in > export/race.in
+    [ "$(grep -c '^run' export/race.in)" = 2 ] || { echo "race: the deck of dem-lammps has another form: export/run.in" >&2; exit 1; }
 }
 run_LAMMPS-export() {
-    (cd export && LD_LIBRARY_PATH=$peers/lib OMP_NUM_THREADS=1 mpirun.mpich -np "$1" "$peers/bin/lmp" -log none -in race.in) | of_log
+    (cd export && LD_LIBRARY_PATH=$peers/lib OMP_NUM_THREADS=1 mpirun.mpich -np "$1" "$peers/bin/lmp" -log none -var keep 0 -in race.in) | of_log
 }
 run_LIGGGHTS() {
     OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun.openmpi -np "$1" liggghts -log none -var warm "$warm" -var steps "$steps" \
