@@ -36,6 +36,9 @@ pub struct Job {
     pub each: Option<String>,
 }
 
+/// Writes the time [s]: with its fraction where bash is 5 or newer.
+const NOTE_TIME: &str = "echo \"${EPOCHREALTIME-$(date +%s)}\"";
+
 /// Argument of a script that should not wait, and its exit code where another process makes the point.
 pub const NOW: &str = "--now";
 /// See [`NOW`].
@@ -105,7 +108,7 @@ impl Job {
             format!("  if [ \"${{1-}}\" = {NOW} ]; then flock -n 9 || exit {BUSY}; else flock 9; fi"),
             "fi".to_owned(),
             format!("[ \"$(cat {} 2> /dev/null)\" = {done} ]{counted} && exit", self.path("made")),
-            format!("rm -f {old}; : > {}", self.path("begun")),
+            format!("rm -f {old}; {NOTE_TIME} > {}", self.path("begun")),
         ];
         let made = |code: &str| format!("echo {} {code} > {}", self.stamp, self.path("made"));
         if let Some(each) = &self.each {
@@ -114,7 +117,7 @@ impl Job {
             // A line that prints nothing gives no input.
             lines.push(format!("own=({input}); [ -s {input} ] || own=()"));
         }
-        lines.push(format!(": > {}", self.path("prepared")));
+        lines.push(format!("{NOTE_TIME} > {}", self.path("prepared")));
         let counted = match (work, counter) {
             (Work::Instructions, Some(counter)) => counter.around(&self.path("instructions")),
             _ => String::new(),

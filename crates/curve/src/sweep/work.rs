@@ -7,7 +7,6 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::SeqCst};
-use std::time::SystemTime;
 
 /// The result of a run.
 #[derive(Debug, Clone)]
@@ -224,8 +223,9 @@ fn cpu(job: &Job) -> Result<f64, CurveError> {
 
 /// Wall time of the line that made the input [s].
 fn prepared(job: &Job) -> f64 {
-    let time = |name: &str| std::fs::metadata(job.file(name)).and_then(|m| m.modified()).ok();
-    let (begun, done): (Option<SystemTime>, _) = (time("begun"), time("prepared"));
-    let span = begun.zip(done).and_then(|(begun, done)| done.duration_since(begun).ok());
-    span.filter(|_| job.each.is_some()).map_or(0.0, |span| span.as_secs_f64())
+    let time = |name: &str| -> Option<f64> {
+        std::fs::read_to_string(job.file(name)).ok()?.trim().replace(',', ".").parse().ok()
+    };
+    let span = time("begun").zip(time("prepared")).map(|(begun, done)| done - begun);
+    span.filter(|_| job.each.is_some()).unwrap_or(0.0)
 }
