@@ -9,7 +9,7 @@
 //! step, so a dashpot has the speed half a step later.
 
 use crate::arrivals::{self, Arrival};
-use crate::data::number_of;
+use crate::data::{number_of, wrapped};
 use crate::dump::{Block, Dump, Ended};
 use crate::files::{PAIRS, TOUCHES, ZONE};
 use crate::types::{Types, law};
@@ -229,7 +229,7 @@ impl<'a> Loads<'a> {
             let distance = apart.norm();
             let normal = apart.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
             let reach = i.radius + radius;
-            let point = i.position - normal * (i.radius * distance / reach);
+            let (point, _) = wrapped(now.setup, i.position - normal * (i.radius * distance / reach));
             all.push(ContactRecord {
                 point,
                 normal,
@@ -258,7 +258,7 @@ impl<'a> Loads<'a> {
                 let pose = now.setup.walls[*index].motion.pose(now.time);
                 let distance = (i.position - pose.position(&plane.point)).dot(&plane.normal);
                 all.push(ContactRecord {
-                    point: i.position - plane.normal * distance,
+                    point: wrapped(now.setup, i.position - plane.normal * distance).0,
                     normal: plane.normal,
                     force: Vec3::new(at[1], at[2], at[3]),
                     overlap: i.radius - distance,

@@ -27,8 +27,9 @@ fn scene(law: &str) -> String {
 
 fn grains() -> String {
     let rows = [
-        [0.1 - 0.5 * (R + S), 0.0, 0.1, R, 0.5 * SLOW, 0.4 * SLOW, 0.0],
-        [-0.1 + 0.5 * (R + S), 0.0, 0.1, S, -0.5 * SLOW, 0.0, 0.0],
+        // From the second, they touch behind the face.
+        [0.1 - 0.5 * (R + S), 0.0, 0.1, S, 0.5 * SLOW, 0.4 * SLOW, 0.0],
+        [-0.1 + 0.5 * (R + S), 0.0, 0.1, R, -0.5 * SLOW, 0.0, 0.0],
         [0.0, 0.0, R, R, 0.3 * SLOW, 0.1 * SLOW, -SLOW],
         [0.05, 0.0, 0.054 + R, R, 0.0, 0.2 * SLOW, -SLOW],
     ];
