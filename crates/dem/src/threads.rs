@@ -23,10 +23,9 @@ const SHORT: usize = 8192;
 
 /// `of` of 0, 1, 2 … up to `count`, in this order.
 pub(crate) fn each<R: Send>(count: usize, of: impl Fn(usize) -> R + Sync + Send) -> Vec<R> {
-    if count < SHORT {
-        return (0..count).map(of).collect();
-    }
-    (0..count).into_par_iter().with_min_len(SHORT / 4).map(of).collect()
+    let mut column = Vec::new();
+    refill(&mut column, count, of);
+    column
 }
 
 /// The same into a column, in the memory that it has: new memory costs more than what is computed.

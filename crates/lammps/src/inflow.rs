@@ -1,4 +1,4 @@
-//! Inlet streams, read to their end before LAMMPS starts: LAMMPS must have all grains from the beginning.
+//! Inlet streams, read up to the end of the run before LAMMPS starts: LAMMPS must have all grains from the beginning.
 
 use crate::error::Result;
 use dem::setup::Entry;

@@ -103,7 +103,7 @@ impl Emulator {
             false => gp.left_out(),
         };
         let left_out: Vec<Vec<f64>> =
-            components.par_iter().enumerate().map(|(k, gp)| left_out((k, gp))).collect::<Option<_>>()?;
+            components.par_iter().enumerate().map(left_out).collect::<Option<_>>()?;
         let near = nearest(&scores, &target, lessons.inputs.ncols());
         let mut off = DMatrix::zeros(near.len(), components.len());
         for (k, (gp, all)) in components.iter_mut().zip(&left_out).enumerate() {

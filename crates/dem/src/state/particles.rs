@@ -46,6 +46,7 @@ pub fn select<T: Copy + Send + Sync>(column: &mut Vec<T>, order: &[u32], tail: u
 /// The same by way of `spare` memory, which is another's afterwards.
 fn select_by<T: Copy + Send + Sync>(spare: &mut Vec<T>, column: &mut Vec<T>, order: &[u32], tail: usize) {
     let end = column.len() - tail;
+    // Of nothing: a column that still has rows would be given room beside them.
     spare.clear();
     spare.reserve_exact(order.len() + TAIL);
     refill(spare, order.len(), |k| column[order[k] as usize]);
