@@ -48,9 +48,17 @@ pub fn column(frame: &Table, name: &str) -> Vec<f64> {
 /// # Panics
 /// When one of them fails.
 pub fn both(folder: &Path, more: &[&str]) -> [Vec<Table>; 2] {
+    both_with(folder, "lmp", more)
+}
+
+/// As [`both`], with the LAMMPS of this name.
+///
+/// # Panics
+/// When one of them fails.
+pub fn both_with(folder: &Path, lmp: &str, more: &[&str]) -> [Vec<Table>; 2] {
     let given = [&["s.toml", "-q", "--set", "time.contacts=sampled"], more].concat();
     succeed(folder, "dem-run", &[&given[..], &["-o", "ours.mcap"]].concat());
-    succeed(folder, "dem-lammps", &[&given[..], &["-o", "theirs.mcap"]].concat());
+    succeed(folder, "dem-lammps", &[&given[..], &["--lmp", lmp, "-o", "theirs.mcap"]].concat());
     ["ours.mcap", "theirs.mcap"].map(|name| frames(&folder.join(name)))
 }
 

@@ -1,20 +1,21 @@
 //! Bonds of beams on both engines, where LAMMPS has the package BPM: two grains that stretch, shear, bend and twist their bond, and a beam of grains.
 
 use crate::refusal;
-use grainpipe_tests::engines::{R, S, both, column, frames};
+use grainpipe_tests::engines::{R, S, both_with, column, frames};
 use grainpipe_tests::scenes::{folder, write};
 use grainpipe_tests::tools::succeed;
 use std::process::Command;
 use stream::Table;
 
-/// Whether LAMMPS has bonds; where it has none, the test is counted as skipped.
-fn bpm() -> bool {
-    let done = Command::new("lmp").arg("-h").output();
+/// A LAMMPS that has bonds: `GRAINPIPE_LMP_BPM`, or `lmp`; where it has none, the test is counted as skipped.
+fn bpm() -> Option<String> {
+    let named = std::env::var("GRAINPIPE_LMP_BPM").unwrap_or_else(|_| "lmp".into());
+    let done = Command::new(&named).arg("-h").output();
     let found = done.is_ok_and(|done| String::from_utf8_lossy(&done.stdout).contains("bpm/rotational"));
     if !found {
-        grainpipe_tests::skip("lmp with BPM");
+        grainpipe_tests::skip("lmp with BPM (GRAINPIPE_LMP_BPM)");
     }
-    found
+    found.then_some(named)
 }
 
 fn scene(time: f64, steps: f64, bond: &str) -> String {
@@ -28,7 +29,7 @@ fn scene(time: f64, steps: f64, bond: &str) -> String {
 }
 
 /// Two grains of two sizes along a skew line, with these velocities and spins of the first one; largest difference of velocities over the largest velocity.
-fn pair(v: [f64; 3], w: [f64; 3], bond: &str) -> f64 {
+fn pair(lmp: &str, v: [f64; 3], w: [f64; 3], bond: &str) -> f64 {
     let reach = R + S + 5e-4;
     let [x, y, z] = [2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0].map(|part| part * reach);
     let rows = [
@@ -38,7 +39,7 @@ fn pair(v: [f64; 3], w: [f64; 3], bond: &str) -> f64 {
     let lines: String = rows.iter().map(|r| r.map(|v| format!("{v:?}")).join(",") + "\n").collect();
     let head = "x,y,z,radius,vx,vy,vz,wx,wy,wz\n".to_owned();
     let folder = folder(&[("s.toml", scene(2e-3, 2e5, bond)), ("grains.csv", head + &lines)]);
-    let [ours, theirs] = both(folder.path(), &[]);
+    let [ours, theirs] = both_with(folder.path(), lmp, &[]);
     let (mut worst, mut largest) = (0.0f64, 0.0f64);
     for (a, b) in ours.iter().zip(&theirs) {
         for (name, arm) in [("vx", 1.0), ("vy", 1.0), ("vz", 1.0), ("wx", R), ("wy", R), ("wz", R)] {
@@ -54,9 +55,7 @@ fn pair(v: [f64; 3], w: [f64; 3], bond: &str) -> f64 {
 /// Small motions: stretching, shear with bending, bending, and twisting, each alone; all at once with dashpots; beside a contact.
 #[test]
 fn small_motions_of_a_bond_agree() {
-    if !bpm() {
-        return;
-    }
+    let Some(lmp) = bpm() else { return };
     let along = [0.02, 0.01, 0.02];
     let across = [0.01, -0.02, 0.0];
     let (axis, side) = ([2.0, 1.0, 2.0], [1.0, -2.0, 0.0]);
@@ -74,7 +73,7 @@ fn small_motions_of_a_bond_agree() {
         ("twisting, damped", still, axis, damped),
         ("beside a contact", across, axis, ""),
     ] {
-        let off = pair(v, w, bond);
+        let off = pair(&lmp, v, w, bond);
         println!("{what}: {off:.1e}");
         assert!(off < 3e-4, "{what}: {off:e}");
     }
@@ -83,9 +82,7 @@ fn small_motions_of_a_bond_agree() {
 /// A bar of twelve grains that swings free, with a contact law beside its bonds, and the same run from a state in its midst.
 #[test]
 fn a_bar_swings_as_in_dem_run_and_goes_on_from_a_state() {
-    if !bpm() {
-        return;
-    }
+    let Some(lmp) = bpm() else { return };
     let rows: String = (0..12)
         .map(|k| {
             let along = f64::from(k) / 11.0 - 0.5;
@@ -97,7 +94,7 @@ fn a_bar_swings_as_in_dem_run_and_goes_on_from_a_state() {
     let grains = "x,y,z,radius,vx,vy,vz,wx,wy,wz\n".to_owned() + &rows;
     let folder = folder(&[("s.toml", bar), ("grains.csv", grains)]);
     let path = folder.path();
-    let [ours, theirs] = both(path, &[]);
+    let [ours, theirs] = both_with(path, &lmp, &[]);
     let worst = |a: &[Table], b: &[Table], name: &str| {
         let of = |(a, b): (&Table, &Table)| {
             let pairs = column(a, name).into_iter().zip(column(b, name));
@@ -109,9 +106,9 @@ fn a_bar_swings_as_in_dem_run_and_goes_on_from_a_state() {
     let off = worst(&ours, &theirs, "y") / swing;
     println!("a bar swings by {swing:.1e} m: {off:.1e} of it");
     assert!(swing > 1e-5 && off < 1e-4, "{off:e}");
-    succeed(path, "dem-lammps", &["s.toml", "--write-deck", "deck", "--lmp", "lmp", "-q"]);
+    succeed(path, "dem-lammps", &["s.toml", "--write-deck", "deck", "--lmp", &lmp, "-q"]);
     let lammps = |options: &[&str]| {
-        let mut lammps = Command::new("lmp");
+        let mut lammps = Command::new(&lmp);
         lammps.args(["-in", "run.in", "-log", "none"]).args(options).current_dir(path.join("deck"));
         let done = lammps.output().unwrap();
         assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stdout));
