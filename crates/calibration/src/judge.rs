@@ -38,8 +38,6 @@ pub struct Finding {
     pub influence: f64,
     /// The step that found it.
     pub step: String,
-    /// The earlier step that says where to look, if the interval reaches the end of what it has left.
-    pub cut_by: Option<String>,
 }
 
 /// Two parameters that the data do not separate.
@@ -156,28 +154,20 @@ fn finding(recipe: &Recipe, end: &StepEnd, of: (usize, usize), sensitivities: &[
         best: p.value(end.samples.best.z[at]),
         prior: prior.map(|z| p.value(z)),
         width,
-        // Also in the region that an earlier step has left, the data have to tell something.
-        determined: width < DETERMINED
-            && (ends[1] - ends[0]) / (end.fitted.region.width(at) * recipe.settings.interval) < DETERMINED,
+        determined: width < DETERMINED,
         influence: sensitivities
             .iter()
             .filter(|s| s.step == end.fitted.step.name)
             .map(influence)
             .fold(0.0, f64::max),
         step: end.fitted.step.name.clone(),
-        cut_by: end
-            .fitted
-            .step
-            .within
-            .filter(|_| end.fitted.region.cuts(at, &values))
-            .map(|w| recipe.steps[w].name.clone()),
     }
 }
 
 fn sensitivities(recipe: &Recipe, end: &StepEnd) -> Vec<PartSensitivity> {
     let step: &Step = end.fitted.step;
     let of = |(part, emulator): (&crate::recipe::Part, &crate::emulator::Emulator)| {
-        let Sensitivity { alone, total } = sensitivity(emulator, &end.fitted.region, recipe.settings.seed);
+        let Sensitivity { alone, total } = sensitivity(emulator, step.fit.len(), recipe.settings.seed);
         let parameters = step.fit.iter().map(|&k| recipe.parameters[k].name.clone()).collect();
         let test = &recipe.tests[part.test].name;
         PartSensitivity { step: step.name.clone(), test: test.clone(), parameters, alone, total }

@@ -39,7 +39,7 @@ pub fn draw(
     let parts = last.fitted.step.to.iter().enumerate();
     let mut panels: Vec<Panel> = parts.take(FITS).map(|(k, part)| fit(recipe, last, (k, part))).collect();
     panels.extend(pairs(recipe, last));
-    panels.extend(sensitivities(recipe, judged, last.fitted.step));
+    panels.extend(sensitivities(judged, last.fitted.step));
     panels.push(misfits(recipe, tried));
     panels.extend(ends.iter().filter(|e| e.widths.len() > 1).map(|e| convergence(recipe, e)));
     let rows = panels.len().div_ceil(COLUMNS);
@@ -158,7 +158,7 @@ const SLANT: f64 = -30.0;
 const ABREAST: usize = 4;
 
 /// Total Sobol indices of a step, a group for each parameter.
-fn sensitivities(recipe: &Recipe, judged: &Judged, step: &Step) -> Option<Panel> {
+fn sensitivities(judged: &Judged, step: &Step) -> Option<Panel> {
     let mine = judged.sensitivities.iter().filter(|s| s.step == step.name);
     let of: Vec<_> = mine.take(COLOURS.len()).collect();
     let names = &of.first()?.parameters;
@@ -170,12 +170,8 @@ fn sensitivities(recipe: &Recipe, judged: &Judged, step: &Step) -> Option<Panel>
         );
     }
     let bars = bars.with_legend(of.iter().map(|s| s.test.as_str()).collect());
-    let where_ = match step.within {
-        None => "between the bounds".to_owned(),
-        Some(earlier) => format!("in what step '{}' has left", recipe.steps[earlier].name),
-    };
     let (plots, layout) =
-        labelled(vec![Plot::from(bars)], &format!("total sensitivity {where_}"), "", "Sobol index [–]");
+        labelled(vec![Plot::from(bars)], "total sensitivity between the bounds", "", "Sobol index [–]");
     let layout = layout.with_y_axis_min(0.0);
     Some((plots, if names.len() > ABREAST { layout.with_x_tick_rotate(SLANT) } else { layout }))
 }

@@ -83,9 +83,6 @@ pub fn warnings(judged: &Judged) -> Vec<String> {
     for s in judged.unmixed() {
         lines.push(format!("step '{}': the chains have not mixed (ratio {:.2}): the posterior may have several peaks: look at the samples", s.step, s.chains));
     }
-    for (f, step) in judged.findings.iter().filter_map(|f| Some((f, f.cut_by.as_ref()?))) {
-        lines.push(format!("{}: its interval reaches the end of what step '{step}' has left: the data may want values beyond: leave within out, or give that step more trials", f.parameter));
-    }
     for f in judged.findings.iter().filter(|f| f.determined) {
         let near = |a: f64, b: f64| (a - b).abs() <= 0.02 * (f.prior[1] - f.prior[0]).abs();
         if near(f.low, f.prior[0]) || near(f.high, f.prior[1]) {

@@ -128,14 +128,36 @@ fn recipes_are_refused_with_place_and_cure() {
             "with: n = \"2 mm\": a command gets it as it is: give one word",
         ),
         (
-            "[[test]]",
-            "[[step]]\nname = \"s\"\nfit = \"mu\"\nwithin = \"s\"\n[[test]]",
-            "within: no step 's' comes before",
+            "trials = 40",
+            "trials = 40\nfirst = 40\nbatch = 4",
+            "r.toml:4:9: batch: changes nothing: all trials come first",
         ),
         (
             "[[test]]",
-            "[[step]]\nname = \"s\"\nfit = \"mu\"\n[[step]]\nname = \"t\"\nfit = \"young\"\nwithin = \"s\"\n[[test]]",
-            "within: changes nothing: that step fits none of these parameters",
+            "[[step]]\nname = \"s\"\nfit = \"all\"\ntrials = 50\n[[test]]",
+            "trials: changes nothing: every step gives its own",
+        ),
+        (
+            "[[test]]",
+            "[[step]]\nname = \"s\"\nfit = \"mu\"\nwith = { n = 5 }\n[[step]]\nname = \"t\"\nfit = \"young\"\nwith = { n = 6 }\nrefines = \"s\"\n[[test]]\n\
+             name = \"sized\"\ncommand = \"model {mu} {young} {n}\"\nvalue = 1\ndeviation = 1\n[[test]]",
+            "refines = \"s\": it fits other parameters",
+        ),
+        (
+            "[[test]]",
+            "[[step]]\nname = \"s\"\nfit = \"all\"\nto = [\"sized\"]\nwith = { n = 5 }\n[[step]]\nname = \"t\"\nfit = \"all\"\nwith = { n = 6 }\nrefines = \"s\"\n[[test]]\n\
+             name = \"sized\"\ncommand = \"model {mu} {young} {n}\"\nvalue = 1\ndeviation = 1\n[[test]]",
+            "refines = \"s\": it does not fit to this part of test 'shear'",
+        ),
+        (
+            "[[test]]",
+            "[[step]]\nname = \"s\"\nfit = \"mu\"\nrefines = \"s\"\n[[test]]",
+            "refines: no step 's' comes before",
+        ),
+        (
+            "[[test]]",
+            "[[step]]\nname = \"s\"\nfit = \"mu\"\n[[step]]\nname = \"t\"\nfit = \"mu\"\nrefines = \"s\"\n[[test]]",
+            "refines = \"s\": its specimens are the same",
         ),
         (
             "[[test]]",

@@ -82,6 +82,46 @@ fn jobs_that_others_run_give_the_same_end() {
     assert_eq!((read(path, "a.csv"), rounds), (read(path, "b.csv"), 2));
 }
 
+/// Trials are judged without the others, by other data, and in a folder that goes on afterwards.
+#[test]
+fn the_trials_so_far_are_judged_and_nothing_is_run() {
+    let folder = inputs();
+    let path = folder.path();
+    let data = ["recipe.toml", "--data", "shear.csv", "--dir", "a"];
+    let of = |more: &[&str]| tool(path, "calibrate", &[&data[..], more].concat());
+    let none = of(&["--so-far"]);
+    assert!(none.code == 1 && none.stderr.contains("no trials are there yet"), "{}", none.stderr);
+    assert_eq!(of(&["-q", "-o", "all.csv"]).code, 0);
+    let value = |file: &str| -> f64 {
+        read(path, file).lines().nth(1).unwrap().split(',').nth(2).unwrap().parse().unwrap()
+    };
+    let trials = || fs::read_dir(path.join("a/trials")).unwrap().count();
+    let before = trials();
+    assert_eq!(of(&["--so-far", "-q", "-o", "again.csv"]).code, 0);
+    let width = |file: &str| -> f64 {
+        let text = read(path, file);
+        let cells: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
+        cells[4].parse::<f64>().unwrap() - cells[3].parse::<f64>().unwrap()
+    };
+    // The same trials: another start of the emulator's lengths, and other random numbers.
+    assert!((value("again.csv") - value("all.csv")).abs() < 0.3 * width("all.csv"));
+    assert_eq!(trials(), before, "nothing was run");
+    // A folder that holds a few of them, of which one was cut off.
+    for k in (before / 2 + 1)..=before {
+        fs::remove_dir_all(path.join(format!("a/trials/{k:04}"))).unwrap();
+    }
+    let half = of(&["--so-far", "-o", "half.csv"]);
+    assert!(half.code == 0 && half.stderr.contains(&format!("{} trials", before / 2)), "{}", half.stderr);
+    for k in 2..=before / 2 {
+        fs::remove_dir_all(path.join(format!("a/trials/{k:04}"))).unwrap();
+    }
+    let one = of(&["--so-far"]);
+    assert!(one.code == 1 && one.stderr.contains("too few to learn from"), "{}", one.stderr);
+    // The calibration itself goes on, to the same end.
+    assert_eq!(of(&["-q", "-o", "end.csv"]).code, 0);
+    assert_eq!(read(path, "end.csv"), read(path, "all.csv"));
+}
+
 #[test]
 fn errors_end_with_the_right_code() {
     let folder = inputs();

@@ -40,7 +40,8 @@ fn calibrate(args: Args) -> anyhow::Result<Report> {
         list,
         candidates,
     };
-    match session.run().map_err(refused)? {
+    let standing = if args.so_far { session.so_far() } else { session.run() };
+    match standing.map_err(refused)? {
         Standing::Open(jobs) => outputs::jobs(&args, &jobs),
         Standing::Done { tried, steps } => {
             let judged = judge(&recipe, &tried, &steps);

@@ -11,14 +11,19 @@ const LEAST: f64 = 1e-4;
 
 /// As [`Gp::left_out`] of the `whole`, with lengths fitted again without the points of each part: lengths of few points follow every one of them, and would seem to
 /// predict it. Stone (1974), doi:10.1111/j.2517-6161.1974.tb00994.x.
-pub(crate) fn crossed(whole: &Gp, inputs: &DMatrix<f64>, y: &DVector<f64>) -> Option<Vec<f64>> {
+pub(crate) fn crossed(
+    whole: &Gp,
+    inputs: &DMatrix<f64>,
+    y: &DVector<f64>,
+    scatter: Option<f64>,
+) -> Option<Vec<f64>> {
     let n = inputs.nrows();
     let mut off = vec![0.0; n];
     let least = LEAST * y.variance();
     for fold in 0..FOLDS.min(n) {
         let rest: Vec<usize> = (0..n).filter(|i| i % FOLDS != fold).collect();
         let (some, some_y) = (inputs.select_rows(&rest), y.select_rows(&rest));
-        let gp = Gp::fit_with(&some, &some_y, None, whole.is_linear())?;
+        let gp = Gp::fit_with(&some, &some_y, (scatter, None), whole.trend)?;
         for i in (fold..n).step_by(FOLDS) {
             let p = gp.predict(&inputs.row(i).iter().copied().collect::<Vec<_>>());
             off[i] = (y[i] - p.mean) / (p.variance + gp.noise).max(least).sqrt();
@@ -38,7 +43,7 @@ mod tests {
         let mut random = generator(3, 1, 0);
         let x = DMatrix::from_fn(12, 3, |_, _| unit(&mut random));
         let y = DVector::from_fn(12, |i, _| if i == 7 { 1.0 } else { 0.0 });
-        let off = crossed(&Gp::fit(&x, &y, None).unwrap(), &x, &y).unwrap();
+        let off = crossed(&Gp::fit(&x, &y, (None, None)).unwrap(), &x, &y, None).unwrap();
         assert!(off.iter().all(|o| o.abs() < 1e3) && off[7].abs() > 2.0, "{off:?}");
     }
 
@@ -52,9 +57,9 @@ mod tests {
             let x = DMatrix::from_fn(12, 3, |_, _| unit(&mut random));
             let at = |x: &DMatrix<f64>, i: usize| [x[(i, 0)], x[(i, 1)], x[(i, 2)]];
             let y = DVector::from_fn(12, |i, _| f(&at(&x, i)));
-            let gp = Gp::fit(&x, &y, None).unwrap();
+            let gp = Gp::fit(&x, &y, (None, None)).unwrap();
             let square = |off: Vec<f64>| off.iter().map(|o| o * o).sum::<f64>() / 12.0;
-            let factors = [square(crossed(&gp, &x, &y).unwrap()), square(gp.left_out().unwrap())];
+            let factors = [square(crossed(&gp, &x, &y, None).unwrap()), square(gp.left_out().unwrap())];
             for z in (0..50).map(|_| [0; 3].map(|_| unit(&mut random))) {
                 let p = gp.predict(&z);
                 let [crossed, left_out] = factors

@@ -1,7 +1,7 @@
-//! A Gaussian process with one length a parameter, a linear trend and noise.
+//! A Gaussian process with one length a parameter, a trend and noise.
 //!
 //! ```text
-//! y(z) = h(z)ᵀ β + f(z) + ε,   h = (1, z)        k(z, z') = σ² (1 + √5 r + 5r²/3) exp(−√5 r),  r² = Σ ((z_i − z'_i)/ℓ_i)²
+//! y(z) = h(z)ᵀ β + f(z) + ε,   h = (1, z) …       k(z, z') = σ² (1 + √5 r + 5r²/3) exp(−√5 r),  r² = Σ ((z_i − z'_i)/ℓ_i)²
 //! K = σ² (R + g I)                              Var ε = σ² g
 //! β = (Hᵀ K⁻¹ H)⁻¹ Hᵀ K⁻¹ y                      m(z) = hᵀβ + kᵀ K⁻¹ (y − Hβ)
 //! v(z) = σ² − kᵀ K⁻¹ k + uᵀ (Hᵀ K⁻¹ H)⁻¹ u,      u = h − Hᵀ K⁻¹ k
@@ -10,6 +10,9 @@
 //! Rasmussen & Williams (2006), Gaussian Processes for Machine Learning, eqs. 2.39–2.45 (trend), 4.17 (Matérn 5/2), 5.9 (gradient). σ² is the
 //! maximum for given ℓ and g. ℓ and g maximise the restricted likelihood times wide log-normal priors, by Rprop (Riedmiller & Braun 1993,
 //! doi:10.1109/ICNN.1993.298623).
+//!
+//! Where runs scatter, as specimens do, short lengths and noise explain few points alike. What is known of the noise decides: Var ε is about the variance
+//! of specimens, by a factor of e^1.5 or so.
 //!
 //! Own code, since the maintained crate (egobox-gp) brings ndarray, linfa and their trees, and draws its starts in parallel; friedrich has one
 //! length for all parameters.
@@ -23,9 +26,11 @@ const SQRT5: f64 = 2.236_067_977_499_79;
 /// Ranges of ln ℓ and ln g.
 const LENGTHS: [f64; 2] = [-2.5, 4.0];
 const NOISES: [f64; 2] = [-18.0, 2.0];
-/// Mean and deviation of the priors of ln ℓ and ln g.
-const LENGTH_PRIOR: [f64; 2] = [0.3, 1.5];
+/// Mean and deviation of the prior of ln ℓ, and of that of ln g where nothing is known of the noise.
+const LENGTH_PRIOR: [f64; 2] = [0.3, 1.0];
 const NOISE_PRIOR: [f64; 2] = [-9.0, 5.0];
+/// Deviation of ln Var ε from what is expected.
+const SCATTER: f64 = 1.5;
 
 /// ln ℓ of each parameter, then ln g.
 pub(crate) type Logs = Vec<f64>;
@@ -34,6 +39,7 @@ pub(crate) type Logs = Vec<f64>;
 #[derive(Clone)]
 pub(crate) struct Gp {
     inputs: DMatrix<f64>,
+    pub trend: Trend,
     lengths: Vec<f64>,
     pub logs: Logs,
     /// σ².
@@ -46,7 +52,7 @@ pub(crate) struct Gp {
     beta: DVector<f64>,
     /// L⁻¹ H, and the factor of Hᵀ R⁻¹ H.
     white: DMatrix<f64>,
-    trend: Cholesky<f64, Dyn>,
+    along: Cholesky<f64, Dyn>,
 }
 
 /// Mean, and variance of the mean.
@@ -64,14 +70,48 @@ fn distance(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>, lengths:
     a.zip(b).zip(lengths).map(|((a, b), l)| ((a - b) / l).powi(2)).sum::<f64>().sqrt()
 }
 
+/// What the mean follows far from all points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Trend {
+    /// h = 1: where there are few points.
+    Constant,
+    /// h = (1, z).
+    Linear,
+    /// h = (1, m): inputs have a last entry m, what another emulator says, which has no length.
+    Other,
+}
+
 fn row(inputs: &DMatrix<f64>, k: usize) -> impl Iterator<Item = f64> + '_ {
     inputs.row(k).into_iter().copied()
 }
 
-/// Rows (1, z), or 1 where there are few points.
-fn basis(inputs: &DMatrix<f64>, linear: bool) -> DMatrix<f64> {
-    let p = if linear { inputs.ncols() + 1 } else { 1 };
-    DMatrix::from_fn(inputs.nrows(), p, |i, j| if j == 0 { 1.0 } else { inputs[(i, j - 1)] })
+impl Trend {
+    /// The one that so many points of so many parameters allow.
+    fn of(points: usize, parameters: usize) -> Trend {
+        if points >= 2 * parameters + 4 { Trend::Linear } else { Trend::Constant }
+    }
+
+    /// Parameters of inputs with so many entries.
+    fn parameters(self, entries: usize) -> usize {
+        if self == Trend::Other { entries - 1 } else { entries }
+    }
+
+    /// The row h of a point.
+    fn row(self, z: &[f64]) -> Vec<f64> {
+        let rest = match self {
+            Trend::Constant => &z[z.len()..],
+            Trend::Linear => z,
+            Trend::Other => &z[z.len() - 1..],
+        };
+        [&[1.0], rest].concat()
+    }
+}
+
+/// Rows h.
+fn basis(inputs: &DMatrix<f64>, trend: Trend) -> DMatrix<f64> {
+    let rows: Vec<Vec<f64>> =
+        (0..inputs.nrows()).map(|i| trend.row(&row(inputs, i).collect::<Vec<_>>())).collect();
+    DMatrix::from_fn(rows.len(), rows.first().map_or(1, Vec::len), |i, j| rows[i][j])
 }
 
 fn correlation(inputs: &DMatrix<f64>, lengths: &[f64], g: f64) -> DMatrix<f64> {
@@ -90,55 +130,80 @@ fn correlation(inputs: &DMatrix<f64>, lengths: &[f64], g: f64) -> DMatrix<f64> {
 struct Solved {
     chol: Cholesky<f64, Dyn>,
     white: DMatrix<f64>,
-    trend: Cholesky<f64, Dyn>,
+    along: Cholesky<f64, Dyn>,
     beta: DVector<f64>,
     alpha: DVector<f64>,
     scale: f64,
 }
 
 fn solve(inputs: &DMatrix<f64>, y: &DVector<f64>, h: &DMatrix<f64>, logs: &[f64]) -> Option<Solved> {
-    let d = inputs.ncols();
+    let d = logs.len() - 1;
     let lengths: Vec<f64> = logs[..d].iter().map(|l| libm::exp(*l)).collect();
     let chol = Cholesky::new(correlation(inputs, &lengths, libm::exp(logs[d])))?;
     let white = chol.l_dirty().solve_lower_triangular(h)?;
-    let trend = Cholesky::new(white.transpose() * &white)?;
+    let along = Cholesky::new(white.transpose() * &white)?;
     let y_white = chol.l_dirty().solve_lower_triangular(y)?;
-    let beta = trend.solve(&(white.transpose() * &y_white));
+    let beta = along.solve(&(white.transpose() * &y_white));
     let rest = y_white - &white * &beta;
     let free = (y.len() - h.ncols()).max(1) as f64;
     let scale = (rest.norm_squared() / free).max(1e-300);
     let alpha = chol.l_dirty().tr_solve_lower_triangular(&rest)?;
-    Some(Solved { chol, white, trend, beta, alpha, scale })
+    Some(Solved { chol, white, along, beta, alpha, scale })
 }
 
 /// Minus the logarithm of likelihood times prior, and its gradient.
-fn loss(inputs: &DMatrix<f64>, y: &DVector<f64>, h: &DMatrix<f64>, logs: &[f64]) -> Option<(f64, Vec<f64>)> {
-    let (n, d) = (inputs.nrows(), inputs.ncols());
+/// `scatter`: what Var ε is expected to be.
+fn loss(
+    inputs: &DMatrix<f64>,
+    y: &DVector<f64>,
+    h: &DMatrix<f64>,
+    logs: &[f64],
+    scatter: Option<f64>,
+) -> Option<(f64, Vec<f64>)> {
+    let (n, d) = (inputs.nrows(), logs.len() - 1);
     let s = solve(inputs, y, h, logs)?;
     let log_det =
         |c: &Cholesky<f64, Dyn>| 2.0 * c.l_dirty().diagonal().iter().map(|v| libm::log(*v)).sum::<f64>();
     let free = (n - h.ncols()).max(1) as f64;
-    let mut value = 0.5 * (log_det(&s.chol) + log_det(&s.trend) + free * libm::log(s.scale));
+    let mut value = 0.5 * (log_det(&s.chol) + log_det(&s.along) + free * libm::log(s.scale));
     // R⁻¹ without its part along the trend: d(loss)/dR = ½ (Q − α αᵀ/σ²).
     let inverse = s.chol.inverse();
     let along = s.chol.l_dirty().tr_solve_lower_triangular(&s.white)?;
-    let q = inverse - &along * s.trend.solve(&along.transpose());
-    let mut gradient = vec![0.0; d + 1];
+    let q = inverse - &along * s.along.solve(&along.transpose());
+    // ½ αᵀ dR α of each, in `pulls`.
+    let (mut gradient, mut pulls) = (vec![0.0; d + 1], vec![0.0; d + 1]);
     let lengths: Vec<f64> = logs[..d].iter().map(|l| libm::exp(*l)).collect();
     for i in 0..n {
-        gradient[d] += 0.5 * (q[(i, i)] - s.alpha[i] * s.alpha[i] / s.scale) * libm::exp(logs[d]);
+        gradient[d] += 0.5 * q[(i, i)] * libm::exp(logs[d]);
+        pulls[d] += 0.5 * s.alpha[i] * s.alpha[i] * libm::exp(logs[d]);
         for j in 0..i {
             let r = distance(row(inputs, i), row(inputs, j), &lengths);
             // dk/d ln ℓ = 5/3 (1 + √5 r) exp(−√5 r) (Δ/ℓ)²; twice for both triangles.
             let slope = 5.0 / 3.0 * (1.0 + SQRT5 * r) * libm::exp(-SQRT5 * r);
-            let factor = (q[(i, j)] - s.alpha[i] * s.alpha[j] / s.scale) * slope;
             for (k, l) in lengths.iter().enumerate() {
-                gradient[k] += factor * ((inputs[(i, k)] - inputs[(j, k)]) / l).powi(2);
+                let change = slope * ((inputs[(i, k)] - inputs[(j, k)]) / l).powi(2);
+                gradient[k] += q[(i, j)] * change;
+                pulls[k] += s.alpha[i] * s.alpha[j] * change;
             }
         }
     }
+    gradient.iter_mut().zip(&pulls).for_each(|(g, pull)| *g -= pull / s.scale);
+    if let Some(scatter) = scatter {
+        // ln Var ε = ln σ² + ln g, d ln σ² = −αᵀ dR α/(σ² n).
+        let off = (libm::log(s.scale) + logs[d] - libm::log(scatter)) / SCATTER;
+        value += 0.5 * off * off;
+        gradient[d] += off / SCATTER;
+        gradient
+            .iter_mut()
+            .zip(&pulls)
+            .for_each(|(g, pull)| *g -= off / SCATTER * 2.0 * pull / (s.scale * free));
+    }
     for (k, log) in logs.iter().enumerate() {
-        let [mean, deviation] = if k < d { LENGTH_PRIOR } else { NOISE_PRIOR };
+        let [mean, deviation] = match scatter {
+            _ if k < d => LENGTH_PRIOR,
+            None => NOISE_PRIOR,
+            Some(_) => break,
+        };
         let off = (log - mean) / deviation;
         value += 0.5 * off * off;
         gradient[k] += off / deviation;
@@ -147,27 +212,30 @@ fn loss(inputs: &DMatrix<f64>, y: &DVector<f64>, h: &DMatrix<f64>, logs: &[f64])
 }
 
 impl Gp {
-    /// Fits a process to the rows of `inputs`; `start` are the lengths of an earlier fit.
-    pub fn fit(inputs: &DMatrix<f64>, y: &DVector<f64>, start: Option<&Logs>) -> Option<Gp> {
-        let linear = inputs.nrows() >= 2 * inputs.ncols() + 4;
-        Gp::fit_with(inputs, y, start, linear)
+    /// Fits a process to the rows of `inputs`, whose `scatter` is the variance that ε is expected to have; `start` are the lengths of an earlier fit.
+    pub fn fit(
+        inputs: &DMatrix<f64>,
+        y: &DVector<f64>,
+        (scatter, start): (Option<f64>, Option<&Logs>),
+    ) -> Option<Gp> {
+        Gp::fit_with(inputs, y, (scatter, start), Trend::of(inputs.nrows(), inputs.ncols()))
     }
 
-    /// The same with a trend that is linear, or one constant.
+    /// The same with this trend.
     pub fn fit_with(
         inputs: &DMatrix<f64>,
         y: &DVector<f64>,
-        start: Option<&Logs>,
-        linear: bool,
+        (scatter, start): (Option<f64>, Option<&Logs>),
+        trend: Trend,
     ) -> Option<Gp> {
-        let (n, d) = (inputs.nrows(), inputs.ncols());
+        let (n, d) = (inputs.nrows(), trend.parameters(inputs.ncols()));
         let few: Vec<usize> = if n <= MOST_FITTED {
             (0..n).collect()
         } else {
             (0..MOST_FITTED).map(|k| k * n / MOST_FITTED).collect()
         };
         let (some, some_y) = (inputs.select_rows(&few), y.select_rows(&few));
-        let h = basis(&some, linear);
+        let h = basis(&some, trend);
         let range: Vec<[f64; 2]> = (0..=d).map(|k| if k < d { LENGTHS } else { NOISES }).collect();
         let fresh: Logs = [vec![0.0; d], vec![-7.0]].concat();
         let noisy: Logs = [vec![0.7; d], vec![-1.5]].concat();
@@ -175,23 +243,35 @@ impl Gp {
             Some(start) if start.len() == d + 1 => vec![(start.clone(), 20)],
             _ => vec![(fresh, 45), (noisy, 45)],
         };
-        let of = |logs: &[f64]| loss(&some, &some_y, &h, logs);
+        let of = |logs: &[f64]| loss(&some, &some_y, &h, logs, scatter);
         let found = starts.iter().filter_map(|(start, steps)| rprop::least(&of, start, &range, *steps));
         let (_, logs) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Gp::with(inputs, y, logs, linear)
+        Gp::with(inputs, y, logs, trend)
     }
 
-    fn with(inputs: &DMatrix<f64>, y: &DVector<f64>, logs: Logs, linear: bool) -> Option<Gp> {
-        let d = inputs.ncols();
-        let s = solve(inputs, y, &basis(inputs, linear), &logs)?;
+    fn with(inputs: &DMatrix<f64>, y: &DVector<f64>, logs: Logs, trend: Trend) -> Option<Gp> {
+        let d = logs.len() - 1;
+        let s = solve(inputs, y, &basis(inputs, trend), &logs)?;
         let lengths = logs[..d].iter().map(|l| libm::exp(*l)).collect();
         let noise = s.scale * libm::exp(logs[d]);
-        let Solved { chol, white, trend, beta, alpha, scale } = s;
-        Some(Gp { inputs: inputs.clone(), lengths, logs, scale, noise, chol, alpha, beta, white, trend })
+        let Solved { chol, white, along, beta, alpha, scale } = s;
+        Some(Gp {
+            inputs: inputs.clone(),
+            trend,
+            lengths,
+            logs,
+            scale,
+            noise,
+            chol,
+            alpha,
+            beta,
+            white,
+            along,
+        })
     }
 
     fn basis_at(&self, z: &[f64]) -> DVector<f64> {
-        DVector::from_fn(self.beta.len(), |j, _| if j == 0 { 1.0 } else { z[j - 1] })
+        DVector::from_vec(self.trend.row(z))
     }
 
     /// Mean and variance, R⁻½ k, and the part of the trend.
@@ -204,7 +284,7 @@ impl Gp {
         let mean = h.dot(&self.beta) + k.dot(&self.alpha);
         self.chol.l_dirty().solve_lower_triangular_mut(&mut k);
         let mut u = h - self.white.tr_mul(&k);
-        self.trend.l_dirty().solve_lower_triangular_mut(&mut u);
+        self.along.l_dirty().solve_lower_triangular_mut(&mut u);
         let variance = self.scale * (1.0 - k.norm_squared() + u.norm_squared()).max(0.0);
         (Prediction { mean, variance }, k, u)
     }
@@ -226,14 +306,9 @@ impl Gp {
     /// For each point: its distance from what the others say, over the deviation of that (eqs. 5.10–5.12, with the trend).
     pub fn left_out(&self) -> Option<Vec<f64>> {
         let along = self.chol.l_dirty().tr_solve_lower_triangular(&self.white)?;
-        let q = self.chol.inverse() - &along * self.trend.solve(&along.transpose());
+        let q = self.chol.inverse() - &along * self.along.solve(&along.transpose());
         let off = |i: usize| self.alpha[i] / (q[(i, i)].max(1e-300) * self.scale).sqrt();
         Some((0..self.alpha.len()).map(off).collect())
-    }
-
-    /// Whether its trend is linear.
-    pub fn is_linear(&self) -> bool {
-        self.beta.len() > 1
     }
 
     /// Standard deviation of the mean over the points.
@@ -283,19 +358,19 @@ mod tests {
     fn gradient_of_the_likelihood_is_its_slope() {
         let x = points(18, 2, 1);
         let y = DVector::from_fn(18, |i, _| libm::sin(5.0 * x[(i, 0)]) + x[(i, 1)] * x[(i, 1)]);
-        let h = basis(&x, true);
+        let h = basis(&x, Trend::Linear);
         let at = [-0.5, 0.4, -3.0];
-        let (_, gradient) = loss(&x, &y, &h, &at).unwrap();
-        for k in 0..3 {
+        for (scatter, k) in [None, Some(0.3)].into_iter().flat_map(|s| (0..3).map(move |k| (s, k))) {
+            let (_, gradient) = loss(&x, &y, &h, &at, scatter).unwrap();
             let step = |s: f64| {
                 let mut logs = at;
                 logs[k] += s;
-                loss(&x, &y, &h, &logs).unwrap().0
+                loss(&x, &y, &h, &logs, scatter).unwrap().0
             };
             let slope = (step(1e-5) - step(-1e-5)) / 2e-5;
             assert!(
                 (gradient[k] - slope).abs() < 1e-5 * slope.abs().max(1.0),
-                "{k}: {} {slope}",
+                "{scatter:?} {k}: {} {slope}",
                 gradient[k]
             );
         }
@@ -306,7 +381,7 @@ mod tests {
         let f = |z: &[f64]| libm::exp(z[0]) * libm::cos(3.0 * z[1]) + 0.0 * z[2];
         let x = points(60, 3, 2);
         let y = DVector::from_fn(60, |i, _| f(&[x[(i, 0)], x[(i, 1)], x[(i, 2)]]));
-        let gp = Gp::fit(&x, &y, None).unwrap();
+        let gp = Gp::fit(&x, &y, (None, None)).unwrap();
         let test = points(200, 3, 3);
         let mut inside = 0;
         for i in 0..200 {
@@ -319,6 +394,23 @@ mod tests {
         assert!(gp.logs[2] > 1.5, "a parameter without influence has a long length: {:?}", gp.logs);
     }
 
+    /// Thirty points of six parameters that scatter by 1: how much of the scatter is taken for noise?
+    #[test]
+    fn few_points_that_scatter_are_not_interpolated() {
+        let taken = |scatter: Option<f64>| -> Vec<f64> {
+            let of = |seed: u64| {
+                let (x, mut random) = (points(30, 6, 100 + seed), generator(seed, 2, 0));
+                let mut normal = || (0..12).map(|_| unit(&mut random)).sum::<f64>() - 6.0;
+                let y = DVector::from_fn(30, |i, _| 4.0 * x[(i, 0)] + normal());
+                Gp::fit(&x, &y, (scatter, None)).unwrap().noise.sqrt()
+            };
+            (0..12).map(of).collect()
+        };
+        let (known, unknown) = (taken(Some(1.0)), taken(None));
+        assert!(known.iter().all(|n| *n > 0.4 && *n < 1.6), "{known:?}");
+        assert!(unknown.iter().any(|n| *n < 0.1), "nothing need be known: {unknown:?}");
+    }
+
     #[test]
     fn noise_is_found_and_the_mean_is_smooth() {
         let x = points(120, 1, 4);
@@ -326,7 +418,7 @@ mod tests {
         // Twelve uniform numbers: deviation 1.
         let mut normal = || (0..12).map(|_| unit(&mut random)).sum::<f64>() - 6.0;
         let y = DVector::from_fn(120, |i, _| 3.0 * x[(i, 0)] * x[(i, 0)] + 0.2 * normal());
-        let gp = Gp::fit(&x, &y, None).unwrap();
+        let gp = Gp::fit(&x, &y, (None, None)).unwrap();
         assert!((gp.noise.sqrt() - 0.2).abs() < 0.04, "{}", gp.noise.sqrt());
         assert!((gp.mean(&[0.5]) - 0.75).abs() < 0.1, "{}", gp.mean(&[0.5]));
         // The covariance of a point with itself is its variance.

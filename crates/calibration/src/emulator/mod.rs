@@ -8,6 +8,13 @@
 //! w = L⁻¹ y − w̄ = Σ_k a_k(z) φ_k        log p(data | z) = −½ [(t − a)ᵀ S⁻¹ (t − a) + ln det S],   S = s² I + V(z) + N
 //! ```
 //!
+//! Where another emulator has learnt from like specimens, such as smaller ones, a component follows what that one says of it, m_k(z), and the process
+//! is the difference (Kennedy & O'Hagan 2000, doi:10.1093/biomet/87.1.1, eq. 1):
+//!
+//! ```text
+//! a_k(z) = β_0 + β_1 m_k(z) + f_k(z),   m_k = φ_kᵀ (w_other(z) − w̄)
+//! ```
+//!
 //! t: components of the data; V: variances of the emulator; N: covariance of specimens, which deviate in all components at once, from the trials
 //! nearest to the data, each left out; s² ≥ 1: how much the data deviate more than they say.
 
@@ -16,6 +23,7 @@ mod gp;
 mod rprop;
 
 use crossed::crossed;
+use gp::Trend;
 pub(crate) use gp::{Gp, Logs, Prediction};
 
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -51,8 +59,42 @@ pub(crate) struct Lessons<'a> {
     /// Runs that each curve is the mean of, and specimens that the data are the mean of.
     pub seeds: f64,
     pub specimens: f64,
+    /// Whether runs differ by their seeds.
+    pub random: bool,
     /// Lengths of an earlier fit.
     pub before: &'a [Logs],
+    /// What it refines: an emulator of the same parameters and data.
+    pub refined: Option<&'a Emulator>,
+}
+
+impl Lessons<'_> {
+    /// Variance of a curve in a component, if runs scatter as the specimens of the data do: their mean has a variance of 1.
+    fn scatter(&self) -> Option<f64> {
+        self.random.then_some(self.specimens / self.seeds)
+    }
+}
+
+/// An emulator that another one refines, in the components of that one.
+#[derive(Clone)]
+struct Refined {
+    emulator: Box<Emulator>,
+    /// From its components to the others: m = turn · scores + offset.
+    turn: DMatrix<f64>,
+    offset: DVector<f64>,
+}
+
+impl Refined {
+    /// Of the components of a basis, from a mean on.
+    fn new(emulator: &Emulator, basis: &DMatrix<f64>, mean: &DVector<f64>) -> Refined {
+        let turn = basis.tr_mul(&emulator.basis);
+        let offset = basis.tr_mul(&(&emulator.mean - mean));
+        Refined { emulator: Box::new(emulator.clone()), turn, offset }
+    }
+
+    /// What it says of each component at a point.
+    fn at(&self, z: &[f64]) -> DVector<f64> {
+        &self.turn * DVector::from_vec(self.emulator.scores(z)) + &self.offset
+    }
 }
 
 /// The emulator of one part.
@@ -75,6 +117,7 @@ pub(crate) struct Emulator {
     factor: DMatrix<f64>,
     mean: DVector<f64>,
     basis: DMatrix<f64>,
+    refined: Option<Refined>,
 }
 
 impl Emulator {
@@ -92,14 +135,36 @@ impl Emulator {
         let beside = (target_white.norm_squared() - target.norm_squared()).max(0.0);
         let scores = basis.tr_mul(&off);
         let same = lessons.before.len() == scores.nrows();
+        let refined = lessons.refined.map(|other| Refined::new(other, &basis, &mean));
+        let said: Option<Vec<DVector<f64>>> = refined.as_ref().map(|r| {
+            (0..lessons.inputs.nrows())
+                .map(|i| r.at(&lessons.inputs.row(i).iter().copied().collect::<Vec<_>>()))
+                .collect()
+        });
+        let inputs: Vec<DMatrix<f64>> = (0..scores.nrows())
+            .map(|k| match &said {
+                None => lessons.inputs.clone(),
+                Some(said) => {
+                    let m = DVector::from_fn(said.len(), |i, _| said[i][k]);
+                    let mut wide = lessons.inputs.clone().insert_column(lessons.inputs.ncols(), 0.0);
+                    wide.set_column(lessons.inputs.ncols(), &m);
+                    wide
+                }
+            })
+            .collect();
         let fit = |k: usize| {
             let start = if same { lessons.before.get(k) } else { None };
-            Gp::fit(&lessons.inputs, &scores.row(k).transpose(), start)
+            let y = scores.row(k).transpose();
+            match &refined {
+                None => Gp::fit(&inputs[k], &y, (lessons.scatter(), start)),
+                Some(_) => Gp::fit_with(&inputs[k], &y, (lessons.scatter(), start), Trend::Other),
+            }
         };
         let mut components: Vec<Gp> = (0..scores.nrows()).into_par_iter().map(fit).collect::<Option<_>>()?;
         let few = lessons.inputs.nrows() < FEW * lessons.inputs.ncols();
         let left_out = |(k, gp): (usize, &Gp)| match few {
-            true => crossed(gp, &lessons.inputs, &scores.row(k).transpose()).or_else(|| gp.left_out()),
+            true => crossed(gp, &inputs[k], &scores.row(k).transpose(), lessons.scatter())
+                .or_else(|| gp.left_out()),
             false => gp.left_out(),
         };
         let left_out: Vec<Vec<f64>> =
@@ -133,7 +198,21 @@ impl Emulator {
             factor,
             mean,
             basis,
+            refined,
         })
+    }
+
+    /// What each component's process takes for a point.
+    pub fn inputs(&self, z: &[f64]) -> Vec<Vec<f64>> {
+        match &self.refined {
+            None => vec![z.to_vec(); self.components.len()],
+            Some(refined) => refined.at(z).iter().map(|m| [z, &[*m]].concat()).collect(),
+        }
+    }
+
+    /// The components at a point.
+    pub fn scores(&self, z: &[f64]) -> Vec<f64> {
+        self.inputs(z).iter().zip(&self.components).map(|(z, gp)| gp.mean(z)).collect()
     }
 
     /// Logarithm of the likelihood, up to a constant.
@@ -152,7 +231,9 @@ impl Emulator {
 
     /// (t − a)ᵀ S⁻¹ (t − a) and ln det S of some components, S = s² I + V(z) + N.
     fn square(&self, z: &[f64], inflation: f64, of: &[usize]) -> Option<(f64, f64)> {
-        let predictions: Vec<Prediction> = of.iter().map(|&k| self.components[k].predict(z)).collect();
+        let inputs = self.inputs(z);
+        let predictions: Vec<Prediction> =
+            of.iter().map(|&k| self.components[k].predict(&inputs[k])).collect();
         let s = DMatrix::from_fn(of.len(), of.len(), |i, j| {
             let own = if i == j { inflation + predictions[i].variance } else { 0.0 };
             own + self.specimens[(of[i], of[j])]
@@ -165,8 +246,9 @@ impl Emulator {
     }
 
     /// The components that tell something, at a point.
-    pub fn scores(&self, z: &[f64]) -> DVector<f64> {
-        DVector::from_iterator(self.active.len(), self.active.iter().map(|&k| self.components[k].mean(z)))
+    pub fn telling(&self, z: &[f64]) -> DVector<f64> {
+        let scores = self.scores(z);
+        DVector::from_iterator(self.active.len(), self.active.iter().map(|&k| scores[k]))
     }
 
     /// Covariance of data and specimens in those components.
@@ -178,9 +260,7 @@ impl Emulator {
 
     /// The mean curve at a point.
     pub fn curve(&self, z: &[f64]) -> Vec<f64> {
-        let scores =
-            DVector::from_iterator(self.components.len(), self.components.iter().map(|gp| gp.mean(z)));
-        let white = &self.mean + &self.basis * scores;
+        let white = &self.mean + &self.basis * DVector::from_vec(self.scores(z));
         (&self.factor * white).iter().copied().collect()
     }
 
@@ -258,7 +338,9 @@ mod tests {
             covariance: DMatrix::identity(2, 2) * 1e-4,
             seeds: 1.0,
             specimens: 1.0,
+            random: false,
             before: &[],
+            refined: None,
         })
         .unwrap();
         // 2 z − z² is free of the specimen; along it z = 0.5 is known to about 0.01, and the likelihood falls from there.

@@ -4,12 +4,14 @@
 //! squares, by drawing the components), the others where the emulator is least certain among samples of the posterior, one after the other,
 //! each with what the earlier ones of the batch will tell (as in Sürer, Plumlee & Wild 2024, doi:10.1080/00401706.2023.2246157). Each eighth
 //! trial is the next of the even points, whatever the posterior says.
+//!
+//! Where a step refines another one, most even points lie in what that one has left, and each fourth anywhere: the two may differ.
 
 use super::Fitted;
 use super::halton::Halton;
 use super::region::Region;
 use super::sample::{Length, Samples};
-use crate::emulator::{Gp, Prediction};
+use crate::emulator::{Emulator, Gp, Prediction};
 use geom::random::{generator, unit};
 use nalgebra::DVector;
 
@@ -31,6 +33,9 @@ pub(crate) struct Choice {
     pub certain: bool,
 }
 
+/// Even points of a step that refines another one: each of so many lies anywhere.
+const ANYWHERE: usize = 4;
+
 /// A candidate with what each process says of it.
 struct Candidate {
     z: Vec<f64>,
@@ -41,7 +46,11 @@ struct Candidate {
 /// The even points of a step, from the `from`-th on.
 pub(crate) fn even(region: &Region, seed: u64, from: usize, count: usize) -> Vec<Vec<f64>> {
     let sequence = Halton::new(region.dimensions(), seed);
-    (from..from + count).map(|k| region.at(&sequence.point(k as u64))).collect()
+    let place = |k: usize| {
+        let point = sequence.point(k as u64);
+        if k % ANYWHERE == ANYWHERE - 1 { point } else { region.at(&point) }
+    };
+    (from..from + count).map(place).collect()
 }
 
 /// Length of the chains that candidates are taken from.
@@ -62,7 +71,11 @@ pub(crate) fn choose(
         .collect();
     let every = samples.list.len().div_ceil(CANDIDATES).max(1);
     let candidate = |z: &Vec<f64>| {
-        let (predictions, projections) = processes.iter().map(|p| p.0.project(z)).unzip();
+        let of = |e: &Emulator| {
+            let inputs = e.inputs(z);
+            e.active.iter().map(|&k| e.components[k].project(&inputs[k])).collect::<Vec<_>>()
+        };
+        let (predictions, projections) = fitted.emulators.iter().flat_map(of).unzip();
         Candidate { z: z.clone(), predictions, projections }
     };
     let mut candidates: Vec<Candidate> =
@@ -109,7 +122,13 @@ fn uncertainty(fitted: &Fitted, processes: &[(&Gp, f64, f64)], c: &Candidate) ->
 
 /// Expected improvement of the sum of squares on the best trial.
 fn improvement(fitted: &Fitted, processes: &[(&Gp, f64, f64)], c: &Candidate, seed: u64) -> f64 {
-    let square = |z: &[f64]| -> f64 { processes.iter().map(|(g, _, t)| (t - g.mean(z)).powi(2)).sum() };
+    let square = |z: &[f64]| -> f64 {
+        let of = |e: &Emulator| {
+            let scores = e.scores(z);
+            e.active.iter().map(|&k| (e.target[k] - scores[k]).powi(2)).sum::<f64>()
+        };
+        fitted.emulators.iter().map(of).sum()
+    };
     let best = fitted.known.first().map_or(f64::INFINITY, |z| square(z));
     let mut random = generator(seed, DRAWS, 0);
     let mut gain = 0.0;

@@ -15,16 +15,26 @@ use crate::trial::Trial;
 use feasible::Feasible;
 use nalgebra::{DMatrix, DVector};
 use region::Region;
-use sample::{Length, Sample, Samples, draw};
+use sample::{Length, Samples, draw};
 
 /// Trials that chains may begin at.
 const MOST_KNOWN: usize = 60;
+
+/// Where a step begins.
+pub(crate) struct Place<'a> {
+    /// Coordinates of all parameters, for those that it holds.
+    pub held: &'a [f64],
+    /// Where most of its even points lie.
+    pub region: &'a Region,
+    /// What the step that it refines has learnt.
+    pub refined: Option<&'a Fitted<'a>>,
+}
 
 /// What a step has learnt.
 pub(crate) struct Fitted<'a> {
     pub recipe: &'a Recipe,
     pub step: &'a Step,
-    /// Where it looks.
+    /// Where most of its even points lie.
     pub region: Region,
     /// An emulator for each part of the step.
     pub emulators: Vec<Emulator>,
@@ -58,16 +68,17 @@ fn belongs(recipe: &Recipe, step: &Step, held: &[f64], trial: &Trial) -> bool {
 }
 
 impl<'a> Fitted<'a> {
-    /// Learns from the trials of a step, which holds other parameters and looks at a region; `before` are the lengths of the fit before.
+    /// Learns from the trials of a step; `before` are the lengths of the fit before.
     pub fn learn(
         recipe: &'a Recipe,
         step: &'a Step,
         tried: &[Tried],
-        (held, region): (&[f64], &Region),
+        place: &Place,
         before: &[Vec<Logs>],
     ) -> Option<Fitted<'a>> {
         let own = |z: &[f64]| -> Vec<f64> { step.fit.iter().map(|&k| z[k]).collect() };
-        let mine: Vec<&Tried> = tried.iter().filter(|t| belongs(recipe, step, held, &t.trial)).collect();
+        let mine: Vec<&Tried> =
+            tried.iter().filter(|t| belongs(recipe, step, place.held, &t.trial)).collect();
         let emulator = |(k, part): (usize, &Part)| {
             let target = recipe.tests[part.test].target.as_ref()?;
             let of = target.part(part.from, part.until);
@@ -89,7 +100,9 @@ impl<'a> Fitted<'a> {
                 covariance: target.covariance(&of),
                 seeds,
                 specimens: target.specimens as f64,
+                random: recipe.tests[part.test].is_random(),
                 before: before.get(k).map_or(&[], Vec::as_slice),
+                refined: place.refined.and_then(|f| f.emulator_of(part)),
             })
         };
         let emulators: Vec<Emulator> = step.to.iter().enumerate().map(emulator).collect::<Option<_>>()?;
@@ -100,7 +113,13 @@ impl<'a> Fitted<'a> {
             mine.iter().filter_map(|t| Some((misfit(recipe, &step.to, t)?, own(&t.trial.z)))).collect();
         known.sort_by(|a, b| a.0.total_cmp(&b.0));
         let known = known.into_iter().map(|k| k.1).collect();
-        Some(Fitted { recipe, step, region: region.clone(), emulators, feasible, known, inflation: 1.0 })
+        let region = place.region.clone();
+        Some(Fitted { recipe, step, region, emulators, feasible, known, inflation: 1.0 })
+    }
+
+    /// The emulator of a part.
+    fn emulator_of(&self, part: &Part) -> Option<&Emulator> {
+        self.step.to.iter().position(|p| p == part).map(|k| &self.emulators[k])
     }
 
     /// Logarithm of the posterior's density, up to a constant.
@@ -113,16 +132,8 @@ impl<'a> Fitted<'a> {
 
     /// Samples of the posterior.
     pub fn samples(&self, seed: u64, length: Length) -> Samples {
-        let known: Vec<Vec<f64>> =
-            self.known.iter().filter_map(|z| self.region.cube(z)).take(MOST_KNOWN).collect();
-        let density = |cube: &[f64]| self.log_density(&self.region.at(cube));
-        let drawn = draw(&density, self.step.fit.len(), &known, seed, length);
-        let placed = |s: Sample| Sample { z: self.region.at(&s.z), log: s.log };
-        Samples {
-            list: drawn.list.into_iter().map(placed).collect(),
-            best: placed(drawn.best),
-            ratio: drawn.ratio,
-        }
+        let known = &self.known[..self.known.len().min(MOST_KNOWN)];
+        draw(&|z: &[f64]| self.log_density(z), self.step.fit.len(), known, seed, length)
     }
 
     /// Square of the misfit at a point, and the degrees of freedom that it should have.

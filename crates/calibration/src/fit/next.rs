@@ -107,7 +107,9 @@ fn unmeasured(recipe: &Recipe, end: &StepEnd, tried: &[Tried], test: usize) -> O
         covariance,
         seeds: if of.is_random() { recipe.settings.seeds as f64 } else { 1.0 },
         specimens: 1.0,
+        random: of.is_random(),
         before: &[],
+        refined: None,
     })
 }
 
@@ -115,7 +117,7 @@ fn unmeasured(recipe: &Recipe, end: &StepEnd, tried: &[Tried], test: usize) -> O
 fn gain(emulator: &Emulator, end: &StepEnd, seed: u64) -> Vec<f64> {
     let every = end.samples.list.len().div_ceil(SAMPLES).max(1);
     let z: Vec<&Vec<f64>> = end.samples.list.iter().step_by(every).map(|s| &s.z).collect();
-    let scores: Vec<DVector<f64>> = z.iter().map(|z| emulator.scores(z)).collect();
+    let scores: Vec<DVector<f64>> = z.iter().map(|z| emulator.telling(z)).collect();
     let Some(chol) = Cholesky::new(emulator.scatter(end.fitted.inflation)) else { return Vec::new() };
     let factor = chol.l();
     let (d, mut random) = (z[0].len(), generator(seed, STREAM, 0));

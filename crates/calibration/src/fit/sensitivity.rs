@@ -1,4 +1,4 @@
-//! How much each parameter changes the curves, between the ends of the region that a step looks at: Sobol indices from the emulator.
+//! How much each parameter changes the curves, between its bounds: Sobol indices from the emulator.
 //!
 //! ```text
 //! S_i  = 1 − Σ_k mean (f_k(B) − f_k(A_B^i))²/2 / Σ_k Var f_k        alone
@@ -9,7 +9,6 @@
 //! doi:10.1016/j.ress.2010.12.002).
 
 use super::halton::Halton;
-use super::region::Region;
 use crate::emulator::Emulator;
 
 /// Points of each matrix.
@@ -24,13 +23,11 @@ pub struct Sensitivity {
     pub total: Vec<f64>,
 }
 
-/// Indices of an emulator in a region of its parameters.
-pub(crate) fn sensitivity(emulator: &Emulator, region: &Region, seed: u64) -> Sensitivity {
-    let d = region.dimensions();
+/// Indices of an emulator of `d` parameters.
+pub(crate) fn sensitivity(emulator: &Emulator, d: usize, seed: u64) -> Sensitivity {
     let sequence = Halton::new(2 * d, seed);
-    let placed = |p: Vec<f64>| [region.at(&p[..d]), region.at(&p[d..])].concat();
-    let points: Vec<Vec<f64>> = (1..=POINTS).map(|k| placed(sequence.point(k))).collect();
-    let values = |z: &[f64]| -> Vec<f64> { emulator.components.iter().map(|g| g.mean(z)).collect() };
+    let points: Vec<Vec<f64>> = (1..=POINTS).map(|k| sequence.point(k)).collect();
+    let values = |z: &[f64]| emulator.scores(z);
     let a: Vec<Vec<f64>> = points.iter().map(|p| values(&p[..d])).collect();
     let b: Vec<Vec<f64>> = points.iter().map(|p| values(&p[d..])).collect();
     let n = 2.0 * POINTS as f64;
@@ -77,10 +74,12 @@ mod tests {
             covariance: one,
             seeds: 1.0,
             specimens: 1.0,
+            random: false,
             before: &[],
+            refined: None,
         })
         .unwrap();
-        let s = sensitivity(&e, &Region::whole(3), 2);
+        let s = sensitivity(&e, 3, 2);
         for (found, wanted) in s.total.iter().chain(&s.alone).zip([0.8, 0.2, 0.0, 0.8, 0.2, 0.0]) {
             assert!((found - wanted).abs() < 0.03, "{s:?}");
         }

@@ -74,7 +74,7 @@ pub(super) struct StepKeys {
     pub fit: Spanned<OneOrMany>,
     pub to: Option<Spanned<Vec<PartKeys>>>,
     pub with: Option<Spanned<BTreeMap<String, Number>>>,
-    pub within: Option<Spanned<String>>,
+    pub refines: Option<Spanned<String>>,
     pub trials: Option<Spanned<i64>>,
     pub first: Option<Spanned<i64>>,
     pub batch: Option<Spanned<i64>>,

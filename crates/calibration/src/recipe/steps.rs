@@ -31,8 +31,8 @@ pub struct Step {
     pub to: Vec<Part>,
     /// What other blanks of the commands stand for.
     pub with: BTreeMap<String, String>,
-    /// The earlier step that says where to look.
-    pub within: Option<usize>,
+    /// The earlier step, of other specimens, whose emulators its own ones correct.
+    pub refines: Option<usize>,
     /// Trials that it may take.
     pub trials: usize,
     /// Trials that fill the space, before the others.
@@ -61,7 +61,9 @@ pub(super) fn steps(
         let with = with::of_step(text, &keys.settings, None, tests.iter(), (names, 0..0))?;
         let name = "all".to_owned();
         let [trials, first, batch] = numbers(text, keys, None, (&name, parameters.len()))?;
-        return Ok(vec![Step { name, fit, to: all_tests, with, within: None, trials, first, batch }]);
+        let steps = vec![Step { name, fit, to: all_tests, with, refines: None, trials, first, batch }];
+        refuse_idle(text, keys, &steps)?;
+        return Ok(steps);
     }
     let step = |(k, entry): (usize, &Spanned<StepKeys>)| {
         let key = entry.get_ref();
@@ -92,22 +94,60 @@ pub(super) fn steps(
             return Err(text.refuse(&key.fit.span(), message));
         }
         let with = with::of_step(text, &keys.settings, Some(key), runs, (names, entry.span()))?;
-        let within = key.within.as_ref().map(|name| within(text, name, before)).transpose()?;
+        let refines = key.refines.as_ref().map(|name| earlier(text, name, before)).transpose()?;
         let name = key.name.clone();
         let [trials, first, batch] = numbers(text, keys, Some(key), (&name, fit.len()))?;
-        Ok(Step { name, fit, to, with, within, trials, first, batch })
+        Ok(Step { name, fit, to, with, refines, trials, first, batch })
     };
     let steps: Vec<Step> = keys.step.iter().enumerate().map(step).collect::<Result<_>>()?;
+    refuse_idle(text, keys, &steps)?;
     for (k, step) in steps.iter().enumerate() {
-        let earlier = step.within.map(|w| &steps[w]);
-        if earlier.is_some_and(|e| e.fit.iter().all(|p| !step.fit.contains(p))) {
-            let span = keys.step[k].get_ref().within.as_ref().map_or(0..0, Spanned::span);
-            return Err(
-                text.refuse(&span, "within: changes nothing: that step fits none of these parameters")
-            );
-        }
+        let Some(earlier) = step.refines.map(|r| &steps[r]) else { continue };
+        let why = if earlier.with == step.with {
+            "its specimens are the same: a step with the same 'with' uses their trials without it"
+        } else if earlier.fit != step.fit {
+            "it fits other parameters: give both steps the same fit"
+        } else if let Some(part) = step.to.iter().find(|p| !earlier.to.contains(p)) {
+            &format!(
+                "it does not fit to this part of test '{}': give both steps the same to",
+                tests[part.test].name
+            )
+        } else {
+            continue;
+        };
+        let span = keys.step[k].get_ref().refines.as_ref().map_or(0..0, Spanned::span);
+        return Err(text.refuse(&span, format!("refines = \"{}\": {why}", earlier.name)));
     }
     Ok(steps)
+}
+
+/// Refuses numbers of trials that no step goes by.
+fn refuse_idle(text: &Text, keys: &RecipeKeys, steps: &[Step]) -> Result<()> {
+    let own: Vec<&StepKeys> = keys.step.iter().map(Spanned::get_ref).collect();
+    let all = |has: fn(&StepKeys) -> bool| !own.is_empty() && own.iter().all(|key| has(key));
+    let settings = &keys.settings;
+    for (name, given, idle) in [
+        ("trials", &settings.trials, all(|key| key.trials.is_some())),
+        ("first", &settings.first, all(|key| key.first.is_some())),
+        ("batch", &settings.batch, all(|key| key.batch.is_some())),
+    ] {
+        if let Some(given) = given.as_ref().filter(|_| idle) {
+            let message = format!("{name}: changes nothing: every step gives its own; leave it out");
+            return Err(text.refuse(&given.span(), message));
+        }
+    }
+    let more = |step: &Step| step.first < step.trials;
+    let of_step =
+        |(key, step): (&&StepKeys, &Step)| key.batch.as_ref().filter(|_| !more(step)).map(Spanned::span);
+    let alone = own.iter().zip(steps).find_map(of_step);
+    let shared = settings.batch.as_ref().filter(|_| !steps.iter().any(more)).map(Spanned::span);
+    match alone.or(shared) {
+        None => Ok(()),
+        Some(span) => Err(text.refuse(
+            &span,
+            "batch: changes nothing: all trials come first; give more trials, or fewer in first",
+        )),
+    }
 }
 
 fn whole_curve(test: usize) -> Part {
@@ -115,11 +155,11 @@ fn whole_curve(test: usize) -> Part {
 }
 
 /// The step of a name among those before.
-fn within(text: &Text, name: &Spanned<String>, before: &[Spanned<StepKeys>]) -> Result<usize> {
+fn earlier(text: &Text, name: &Spanned<String>, before: &[Spanned<StepKeys>]) -> Result<usize> {
     let known = before.iter().map(|b| b.get_ref().name.as_str());
     known.clone().position(|k| k == name.get_ref()).ok_or_else(|| {
         let hint = hint(name.get_ref(), known);
-        text.refuse(&name.span(), format!("within: no step '{}' comes before{hint}", name.get_ref()))
+        text.refuse(&name.span(), format!("refines: no step '{}' comes before{hint}", name.get_ref()))
     })
 }
 

@@ -19,7 +19,7 @@ const HOPELESS: usize = 3;
 impl Session<'_> {
     /// The tests that a step runs: those that it fits to; in the last step all, if `--design` is to compare them. Tests with the same command stand
     /// together: what one of them runs tells of all.
-    fn commands(&self, step: usize) -> Vec<Vec<usize>> {
+    pub(super) fn commands(&self, step: usize) -> Vec<Vec<usize>> {
         let last = step + 1 == self.recipe.steps.len();
         let to = &self.recipe.steps[step].to;
         let asked = |test: usize| last && self.candidates || to.iter().any(|part| part.test == test);
@@ -43,6 +43,19 @@ impl Session<'_> {
         self.commands(step).iter().map(|tests| runs(tests[0])).sum()
     }
 
+    /// A trial before its runs.
+    pub(super) fn untried(&self, trial: Trial) -> Tried {
+        Tried {
+            trial,
+            outputs: vec![None; self.recipe.tests.len()],
+            curves: vec![Vec::new(); self.recipe.tests.len()],
+            status: Status::Done,
+            why: None,
+            seconds: 0.0,
+            misfit: None,
+        }
+    }
+
     /// Makes the trials of a proposal; false: jobs are open.
     pub(super) fn try_all(
         &self,
@@ -59,16 +72,8 @@ impl Session<'_> {
             step.fit.iter().zip(point).for_each(|(&p, v)| z[p] = *v);
             Trial { number: number + k + 1, step: of.0, batch: of.1, z }
         };
-        let empty = |trial: Trial| Tried {
-            trial,
-            outputs: vec![None; self.recipe.tests.len()],
-            curves: vec![Vec::new(); self.recipe.tests.len()],
-            status: Status::Done,
-            why: None,
-            seconds: 0.0,
-            misfit: None,
-        };
-        let mut new: Vec<Tried> = proposal.points.iter().enumerate().map(trial).map(empty).collect();
+        let mut new: Vec<Tried> =
+            proposal.points.iter().enumerate().map(trial).map(|t| self.untried(t)).collect();
         let alike = |t: &&Tried| self.recipe.steps[t.trial.step].with == step.with;
         let best = tried
             .iter()
@@ -163,7 +168,7 @@ impl Session<'_> {
     }
 
     /// Reads what the runs of a trial printed.
-    fn collect(&self, tried: &mut Tried, runs: &[Run]) {
+    pub(super) fn collect(&self, tried: &mut Tried, runs: &[Run]) {
         for run in once(runs) {
             tried.seconds += seconds(trial::run::ended(&run.file, &run.job));
         }

@@ -6,6 +6,7 @@
 mod batch;
 mod proposal;
 mod record;
+mod so_far;
 mod work;
 
 pub(crate) use record::cell;
@@ -13,7 +14,7 @@ pub use record::{Status, Tried, table};
 
 use crate::error::{CalibrateError, Result};
 use crate::fit::sample::Length;
-use crate::fit::{Fitted, choice, region::Region, sample::Samples};
+use crate::fit::{Fitted, Place, choice, region::Region, sample::Samples};
 use crate::recipe::{Recipe, Step};
 use crate::trial::{run, run::Ended};
 use proposal::Proposal;
@@ -100,10 +101,12 @@ impl<'a> Session<'a> {
         let mut held: Vec<f64> =
             recipe.parameters.iter().map(|p| p.coordinate(p.start).clamp(0.0, 1.0)).collect();
         for (k, step) in recipe.steps.iter().enumerate() {
-            let left = |w: usize| Region::left_by(&ends[w].samples, &ends[w].fitted.step.fit, &step.fit);
-            let region = step.within.map_or_else(|| Region::whole(step.fit.len()), left);
+            let d = step.fit.len();
+            let refined = step.refines.map(|r| &ends[r]);
+            let region = refined.map_or_else(|| Region::whole(d), |end| Region::left_by(&end.samples, d));
+            let place = Place { held: &held, region: &region, refined: refined.map(|end| &end.fitted) };
             work.begin(k);
-            let Some(mut end) = self.step((k, step), &mut tried, (&held, &region), &mut work)? else {
+            let Some(mut end) = self.step((k, step), &mut tried, &place, &mut work)? else {
                 return Ok(Standing::Open(work.open));
             };
             let best = end.samples.best.z.clone();
@@ -135,7 +138,7 @@ impl<'a> Session<'a> {
         &self,
         of: (usize, &'a Step),
         tried: &mut Vec<Tried>,
-        (held, region): (&[f64], &Region),
+        place: &Place,
         work: &mut work::Work,
     ) -> Result<Option<StepEnd<'a>>> {
         let (k, step) = of;
@@ -144,28 +147,36 @@ impl<'a> Session<'a> {
         let mut widths = Vec::new();
         loop {
             let count = if batch == 0 { step.first } else { step.batch.min(step.trials - trials) };
-            let fitted =
-                if batch == 0 { None } else { Some(self.learn(step, tried, (held, region), &logs)?) };
+            let fitted = if batch == 0 { None } else { Some(self.learn(step, tried, place, &logs)?) };
             let samples = fitted.as_ref().map(|f| f.samples(self.seed(k, batch), choice::SHORT));
             if let (Some(fitted), Some(samples)) = (fitted, samples) {
                 logs = fitted.logs();
                 widths.push((trials, self.widths(&samples)));
                 if count == 0 || certain == 2 {
                     let early = count > 0;
-                    return Ok(Some(StepEnd { fitted, samples, trials, early, widths, held: held.to_vec() }));
+                    return Ok(Some(StepEnd {
+                        fitted,
+                        samples,
+                        trials,
+                        early,
+                        widths,
+                        held: place.held.to_vec(),
+                    }));
                 }
                 let make = || self.propose(&fitted, &samples, (k, batch, trials, count));
-                let proposal = Proposal::kept(self, (k, batch), tried, (held, region), make)?;
+                let proposal = Proposal::kept(self, (k, batch), tried, place, make)?;
                 certain = if proposal.certain { certain + 1 } else { 0 };
-                if !self.try_all(&proposal, (k, batch), (tried, held), work)? {
+                if !self.try_all(&proposal, (k, batch), (tried, place.held), work)? {
                     return Ok(None);
                 }
                 trials += proposal.points.len();
             } else {
-                let make =
-                    || Proposal { points: choice::even(region, self.seed(k, 0), 0, count), certain: false };
-                let proposal = Proposal::kept(self, (k, 0), tried, (held, region), make)?;
-                if !self.try_all(&proposal, (k, 0), (tried, held), work)? {
+                let make = || Proposal {
+                    points: choice::even(place.region, self.seed(k, 0), 0, count),
+                    certain: false,
+                };
+                let proposal = Proposal::kept(self, (k, 0), tried, place, make)?;
+                if !self.try_all(&proposal, (k, 0), (tried, place.held), work)? {
                     return Ok(None);
                 }
                 trials += count;
@@ -186,7 +197,7 @@ impl<'a> Session<'a> {
         &self,
         step: &'a Step,
         tried: &[Tried],
-        place: (&[f64], &Region),
+        place: &Place,
         logs: &[Vec<crate::emulator::Logs>],
     ) -> Result<Fitted<'a>> {
         Fitted::learn(self.recipe, step, tried, place, logs).ok_or_else(|| {

@@ -2,7 +2,7 @@
 
 use super::{Session, Tried};
 use crate::error::{CalibrateError, Result};
-use crate::fit::region::Region;
+use crate::fit::Place;
 use crate::trial::replace;
 use serde::{Deserialize, Serialize};
 
@@ -33,7 +33,7 @@ impl Proposal {
         session: &Session,
         of: (usize, usize),
         tried: &[Tried],
-        place: (&[f64], &Region),
+        place: &Place,
         make: impl FnOnce() -> Proposal,
     ) -> Result<Proposal> {
         let path = session.dir.join("batches").join(format!("step-{}-batch-{:03}.json", of.0 + 1, of.1));
@@ -55,12 +55,7 @@ impl Proposal {
 }
 
 /// What a proposal follows from.
-fn stamp(
-    session: &Session,
-    of: (usize, usize),
-    tried: &[Tried],
-    (held, region): (&[f64], &Region),
-) -> String {
+fn stamp(session: &Session, of: (usize, usize), tried: &[Tried], place: &Place) -> String {
     let (recipe, step) = (session.recipe, &session.recipe.steps[of.0]);
     let mut text = format!(
         "{} {of:?} {:?} {:?} {}\n",
@@ -84,5 +79,5 @@ fn stamp(
     for p in &recipe.parameters {
         text += &format!("{} {} {} {} {:?}\n", p.name, p.low, p.high, p.log, p.prior);
     }
-    stream::sha256(format!("{text}{held:?}{region:?}{:?}", step.with).as_bytes())
+    stream::sha256(format!("{text}{:?}{:?}{:?}", place.held, place.region, step.with).as_bytes())
 }

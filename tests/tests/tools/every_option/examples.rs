@@ -112,6 +112,7 @@ pub const EXAMPLES: &[&str] = &[
     "calibrate recipe.toml --data shear=shear.csv --jobs 1 --dir t1 --words w.md --plot fit.svg --page fit.html --samples samples.csv --design next.csv --seed 3 -o found.csv --report r.json --threads 2 -q",
     "calibrate recipe.toml --data shear.csv --jobs-file jobs.txt --dir t2 --output found.csv --quiet",
     "calibrate --run t2/trials/0001/shear.job",
+    "calibrate recipe.toml --data shear.csv --so-far --dir t1",
     "calibrate --guess --material sand --size 2mm --moisture dry --repose-deg 33",
     "calibrate --guess --material glass --size 2mm --moisture damp --repose-deg 25",
     "calibrate --guess --material steel --size 0.002 --moisture wet --repose-deg 25",
