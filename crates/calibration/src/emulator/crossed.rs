@@ -1,6 +1,6 @@
 //! How far each trial is from what the others say of it, where there are few.
 
-use super::gp::Gp;
+use super::gp::{Gp, Scatter};
 use nalgebra::{DMatrix, DVector};
 
 /// Parts that are left out in turn.
@@ -15,7 +15,7 @@ pub(crate) fn crossed(
     whole: &Gp,
     inputs: &DMatrix<f64>,
     y: &DVector<f64>,
-    scatter: Option<f64>,
+    scatter: Scatter,
 ) -> Option<Vec<f64>> {
     let n = inputs.nrows();
     let mut off = vec![0.0; n];
@@ -43,7 +43,7 @@ mod tests {
         let mut random = generator(3, 1, 0);
         let x = DMatrix::from_fn(12, 3, |_, _| unit(&mut random));
         let y = DVector::from_fn(12, |i, _| if i == 7 { 1.0 } else { 0.0 });
-        let off = crossed(&Gp::fit(&x, &y, (None, None)).unwrap(), &x, &y, None).unwrap();
+        let off = crossed(&Gp::fit(&x, &y, (Scatter::None, None)).unwrap(), &x, &y, Scatter::None).unwrap();
         assert!(off.iter().all(|o| o.abs() < 1e3) && off[7].abs() > 2.0, "{off:?}");
     }
 
@@ -57,9 +57,10 @@ mod tests {
             let x = DMatrix::from_fn(12, 3, |_, _| unit(&mut random));
             let at = |x: &DMatrix<f64>, i: usize| [x[(i, 0)], x[(i, 1)], x[(i, 2)]];
             let y = DVector::from_fn(12, |i, _| f(&at(&x, i)));
-            let gp = Gp::fit(&x, &y, (None, None)).unwrap();
+            let gp = Gp::fit(&x, &y, (Scatter::None, None)).unwrap();
             let square = |off: Vec<f64>| off.iter().map(|o| o * o).sum::<f64>() / 12.0;
-            let factors = [square(crossed(&gp, &x, &y, None).unwrap()), square(gp.left_out().unwrap())];
+            let factors =
+                [square(crossed(&gp, &x, &y, Scatter::None).unwrap()), square(gp.left_out().unwrap())];
             for z in (0..50).map(|_| [0; 3].map(|_| unit(&mut random))) {
                 let p = gp.predict(&z);
                 let [crossed, left_out] = factors

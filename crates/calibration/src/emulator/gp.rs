@@ -11,8 +11,7 @@
 //! maximum for given ℓ and g. ℓ and g maximise the restricted likelihood times wide log-normal priors, by Rprop (Riedmiller & Braun 1993,
 //! doi:10.1109/ICNN.1993.298623).
 //!
-//! Where runs scatter, as specimens do, short lengths and noise explain few points alike. What is known of the noise decides: Var ε is about the variance
-//! of specimens, by a factor of e^1.5 or so.
+//! Where runs scatter, as specimens do, short lengths and noise explain few points alike. What is known of the noise decides ([`Scatter`]).
 //!
 //! Own code, since the maintained crate (egobox-gp) brings ndarray, linfa and their trees, and draws its starts in parallel; friedrich has one
 //! length for all parameters.
@@ -26,14 +25,26 @@ const SQRT5: f64 = 2.236_067_977_499_79;
 /// Ranges of ln ℓ and ln g.
 const LENGTHS: [f64; 2] = [-2.5, 4.0];
 const NOISES: [f64; 2] = [-18.0, 2.0];
-/// Mean and deviation of the prior of ln ℓ, and of that of ln g where nothing is known of the noise.
+/// Mean and deviation of the prior of ln ℓ, and of that of ln g for runs without chance and with chance.
 const LENGTH_PRIOR: [f64; 2] = [0.3, 1.0];
 const NOISE_PRIOR: [f64; 2] = [-9.0, 5.0];
+const CHANCE_PRIOR: [f64; 2] = [-4.0, 3.0];
 /// Deviation of ln Var ε from what is expected.
-const SCATTER: f64 = 1.5;
+const EXPECTED: f64 = 1.5;
 
 /// ln ℓ of each parameter, then ln g.
 pub(crate) type Logs = Vec<f64>;
+
+/// What is known of ε before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Scatter {
+    /// The same point gives the same value.
+    None,
+    /// There is chance in it.
+    Unknown,
+    /// Var ε is about this, by a factor of e^1.5 or so.
+    About(f64),
+}
 
 /// A fitted process.
 #[derive(Clone)]
@@ -152,13 +163,12 @@ fn solve(inputs: &DMatrix<f64>, y: &DVector<f64>, h: &DMatrix<f64>, logs: &[f64]
 }
 
 /// Minus the logarithm of likelihood times prior, and its gradient.
-/// `scatter`: what Var ε is expected to be.
 fn loss(
     inputs: &DMatrix<f64>,
     y: &DVector<f64>,
     h: &DMatrix<f64>,
     logs: &[f64],
-    scatter: Option<f64>,
+    scatter: Scatter,
 ) -> Option<(f64, Vec<f64>)> {
     let (n, d) = (inputs.nrows(), logs.len() - 1);
     let s = solve(inputs, y, h, logs)?;
@@ -188,21 +198,22 @@ fn loss(
         }
     }
     gradient.iter_mut().zip(&pulls).for_each(|(g, pull)| *g -= pull / s.scale);
-    if let Some(scatter) = scatter {
+    if let Scatter::About(scatter) = scatter {
         // ln Var ε = ln σ² + ln g, d ln σ² = −αᵀ dR α/(σ² n).
-        let off = (libm::log(s.scale) + logs[d] - libm::log(scatter)) / SCATTER;
+        let off = (libm::log(s.scale) + logs[d] - libm::log(scatter)) / EXPECTED;
         value += 0.5 * off * off;
-        gradient[d] += off / SCATTER;
+        gradient[d] += off / EXPECTED;
         gradient
             .iter_mut()
             .zip(&pulls)
-            .for_each(|(g, pull)| *g -= off / SCATTER * 2.0 * pull / (s.scale * free));
+            .for_each(|(g, pull)| *g -= off / EXPECTED * 2.0 * pull / (s.scale * free));
     }
     for (k, log) in logs.iter().enumerate() {
         let [mean, deviation] = match scatter {
             _ if k < d => LENGTH_PRIOR,
-            None => NOISE_PRIOR,
-            Some(_) => break,
+            Scatter::None => NOISE_PRIOR,
+            Scatter::Unknown => CHANCE_PRIOR,
+            Scatter::About(_) => break,
         };
         let off = (log - mean) / deviation;
         value += 0.5 * off * off;
@@ -212,11 +223,11 @@ fn loss(
 }
 
 impl Gp {
-    /// Fits a process to the rows of `inputs`, whose `scatter` is the variance that ε is expected to have; `start` are the lengths of an earlier fit.
+    /// Fits a process to the rows of `inputs`, whose values have this scatter; `start` are the lengths of an earlier fit.
     pub fn fit(
         inputs: &DMatrix<f64>,
         y: &DVector<f64>,
-        (scatter, start): (Option<f64>, Option<&Logs>),
+        (scatter, start): (Scatter, Option<&Logs>),
     ) -> Option<Gp> {
         Gp::fit_with(inputs, y, (scatter, start), Trend::of(inputs.nrows(), inputs.ncols()))
     }
@@ -225,7 +236,7 @@ impl Gp {
     pub fn fit_with(
         inputs: &DMatrix<f64>,
         y: &DVector<f64>,
-        (scatter, start): (Option<f64>, Option<&Logs>),
+        (scatter, start): (Scatter, Option<&Logs>),
         trend: Trend,
     ) -> Option<Gp> {
         let (n, d) = (inputs.nrows(), trend.parameters(inputs.ncols()));
@@ -360,7 +371,10 @@ mod tests {
         let y = DVector::from_fn(18, |i, _| libm::sin(5.0 * x[(i, 0)]) + x[(i, 1)] * x[(i, 1)]);
         let h = basis(&x, Trend::Linear);
         let at = [-0.5, 0.4, -3.0];
-        for (scatter, k) in [None, Some(0.3)].into_iter().flat_map(|s| (0..3).map(move |k| (s, k))) {
+        for (scatter, k) in [Scatter::None, Scatter::Unknown, Scatter::About(0.3)]
+            .into_iter()
+            .flat_map(|s| (0..3).map(move |k| (s, k)))
+        {
             let (_, gradient) = loss(&x, &y, &h, &at, scatter).unwrap();
             let step = |s: f64| {
                 let mut logs = at;
@@ -381,7 +395,7 @@ mod tests {
         let f = |z: &[f64]| libm::exp(z[0]) * libm::cos(3.0 * z[1]) + 0.0 * z[2];
         let x = points(60, 3, 2);
         let y = DVector::from_fn(60, |i, _| f(&[x[(i, 0)], x[(i, 1)], x[(i, 2)]]));
-        let gp = Gp::fit(&x, &y, (None, None)).unwrap();
+        let gp = Gp::fit(&x, &y, (Scatter::None, None)).unwrap();
         let test = points(200, 3, 3);
         let mut inside = 0;
         for i in 0..200 {
@@ -397,7 +411,7 @@ mod tests {
     /// Thirty points of six parameters that scatter by 1: how much of the scatter is taken for noise?
     #[test]
     fn few_points_that_scatter_are_not_interpolated() {
-        let taken = |scatter: Option<f64>| -> Vec<f64> {
+        let taken = |scatter: Scatter| -> Vec<f64> {
             let of = |seed: u64| {
                 let (x, mut random) = (points(30, 6, 100 + seed), generator(seed, 2, 0));
                 let mut normal = || (0..12).map(|_| unit(&mut random)).sum::<f64>() - 6.0;
@@ -406,7 +420,7 @@ mod tests {
             };
             (0..12).map(of).collect()
         };
-        let (known, unknown) = (taken(Some(1.0)), taken(None));
+        let (known, unknown) = (taken(Scatter::About(1.0)), taken(Scatter::None));
         assert!(known.iter().all(|n| *n > 0.4 && *n < 1.6), "{known:?}");
         assert!(unknown.iter().any(|n| *n < 0.1), "nothing need be known: {unknown:?}");
     }
@@ -418,7 +432,7 @@ mod tests {
         // Twelve uniform numbers: deviation 1.
         let mut normal = || (0..12).map(|_| unit(&mut random)).sum::<f64>() - 6.0;
         let y = DVector::from_fn(120, |i, _| 3.0 * x[(i, 0)] * x[(i, 0)] + 0.2 * normal());
-        let gp = Gp::fit(&x, &y, (None, None)).unwrap();
+        let gp = Gp::fit(&x, &y, (Scatter::None, None)).unwrap();
         assert!((gp.noise.sqrt() - 0.2).abs() < 0.04, "{}", gp.noise.sqrt());
         assert!((gp.mean(&[0.5]) - 0.75).abs() < 0.1, "{}", gp.mean(&[0.5]));
         // The covariance of a point with itself is its variance.

@@ -23,8 +23,8 @@ mod gp;
 mod rprop;
 
 use crossed::crossed;
-use gp::Trend;
 pub(crate) use gp::{Gp, Logs, Prediction};
+use gp::{Scatter, Trend};
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
@@ -68,9 +68,13 @@ pub(crate) struct Lessons<'a> {
 }
 
 impl Lessons<'_> {
-    /// Variance of a curve in a component, if runs scatter as the specimens of the data do: their mean has a variance of 1.
-    fn scatter(&self) -> Option<f64> {
-        self.random.then_some(self.specimens / self.seeds)
+    /// That of a component. Several specimens of the data tell it: their mean has a variance of 1, and runs are expected to scatter as they do.
+    fn scatter(&self) -> Scatter {
+        match self.random {
+            false => Scatter::None,
+            true if self.specimens > 1.0 => Scatter::About(self.specimens / self.seeds),
+            true => Scatter::Unknown,
+        }
     }
 }
 

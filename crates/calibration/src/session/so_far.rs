@@ -61,7 +61,8 @@ impl<'a> Session<'a> {
     /// The trials of the folder that have a result.
     fn stored(&self) -> Result<Vec<Tried>> {
         let folder = self.dir.join("trials");
-        let list = std::fs::read_dir(&folder).map_err(crate::error::file(&folder, "no trials are there yet"))?;
+        let list =
+            std::fs::read_dir(&folder).map_err(crate::error::file(&folder, "no trials are there yet"))?;
         let mut numbers: Vec<usize> =
             list.filter_map(|e| e.ok()?.file_name().to_str()?.parse().ok()).collect();
         numbers.sort_unstable();
@@ -98,9 +99,12 @@ impl<'a> Session<'a> {
     fn result(&self, trial: Trial, hashes: &mut Hashes) -> Option<Tried> {
         let step = &self.recipe.steps[trial.step];
         let tests = self.commands(trial.step).concat();
-        let all: Vec<Run> =
-            tests.iter().flat_map(|&test| trial::runs(self.recipe, &self.dir, &trial, test, hashes)).collect();
-        let (done, open): (Vec<Run>, Vec<Run>) = all.into_iter().partition(|r| ended(&r.file, &r.job).is_some());
+        let all: Vec<Run> = tests
+            .iter()
+            .flat_map(|&test| trial::runs(self.recipe, &self.dir, &trial, test, hashes))
+            .collect();
+        let (done, open): (Vec<Run>, Vec<Run>) =
+            all.into_iter().partition(|r| ended(&r.file, &r.job).is_some());
         if done.is_empty() {
             return None;
         }
