@@ -6,7 +6,7 @@ mkdir -p "$1"
 export OUT PAGE
 OUT=$(cd "$1" && pwd) PAGE=$(cd "$(dirname "$2")" && pwd)/$(basename "$2")
 cd "$(dirname "$0")"
-CASES=${CASES:-impact slot collapse drum penetration}
+CASES=${CASES:-impact slot silo collapse drum penetration projectile}
 for case in $CASES; do
   echo "validation: $case" >&2
   "./$case.sh" > "$OUT/$case.md"

@@ -8,7 +8,7 @@ scene() {
   shift 2
   [ -e "$OUT/$name.mcap" ] && return
   echo "validation: $name" >&2
-  dem-run "$scene.toml" "$@" --threads 1 -q --report "$OUT/$name.json" -o "$OUT/$name.mcap"
+  dem-run "$scene.toml" "$@" --threads "${THREADS:-1}" -q --report "$OUT/$name.json" -o "$OUT/$name.mcap"
 }
 
 # summary FILE KEY: a number of a measure's JSON.
