@@ -51,8 +51,9 @@ for modulus in $MODULI; do
   track $name
   path $name 0 | awk -v e="$modulus" '{ printf "| **Grainpipe** | %s | **%.1f** | **%.1f** | %s |\n", e, $1, $2, (e >= 1e9 ? sprintf("**%.1f**", $5) : "–") }'
 done
+own=${name:?MODULI is empty}
 echo
-echo "Solid fraction of this bed, away from walls and surface: $(solid "${name:?}" -0.085 -0.065 0 | awk '{ printf "%.3f", $1 }')."
+echo "Solid fraction of this bed, away from walls and surface: $(solid "$own" -0.085 -0.065 0 | awk '{ printf "%.3f", $1 }')."
 
 # Own packings of 50 000 beads. The ball is released 15 ms earlier and higher, so that the bed comes to rest with the modulus of the run.
 echo 'id,x,y,z,radius,vx,vy,vz
@@ -80,3 +81,7 @@ intervals < "$OUT/projectile.values" | awk -v peers="$(tr '\n' ';' <<< "$PEERS_5
     printf "\n| difference from the mean of the three | |"
     for (i = 1; i <= 4; i++) printf " %+.1f %% |", 100 * (mean["d" i] / peer[i] * n - 1)
     printf "\n\nSolid fraction of the packings: %.3f ± %.3f.\n", mean["solid"], off["solid"] }'
+if [ -n "${PAGE:-}" ]; then
+  dem-view "$OUT/$own.mcap" --time 0.026 --only y=-0.0006,0.03 --camera front --size 400x250 -o "$(dirname "$PAGE")/validation-projectile.png" -q
+  printf '\n![The ball in the bed of 25 000 beads, cut through its middle](validation-projectile.png)\n'
+fi

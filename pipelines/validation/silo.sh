@@ -10,8 +10,9 @@ awk -v n=100 'BEGIN { pi = atan2(0, -1); split("0.1 0.1 0.03", r, " "); split("0
   print "element face " 2 * n "\nproperty list uchar int vertex_indices\nend_header"
   for (k = 1; k <= 3; k++) for (i = 0; i < n; i++) printf "%.9g %.9g %.9g\n", r[k] * cos(2 * pi * i / n), r[k] * sin(2 * pi * i / n), z[k]
   for (k = 0; k < 2; k++) for (i = 0; i < n; i++) { j = (i + 1) % n; print 4, k * n + i, k * n + j, (k + 1) * n + j, (k + 1) * n + i } }' > silo.ply
-# Grains per second while 32 000 to 24 000 remain in the silo, and while 80 000 to 60 000, with 1e9 Pa: from the curves that the page "peclet.dem vs the DEM8 bulk-process benchmark"
-# publishes (github.com/computational-chemical-engineering/peclet-examples, benchmarks/dem-bulk-dosta2024/data, case1_large_M1_*.npz).
+# Grains per second while 32 000 to 24 000 remain in the silo, and while 80 000 to 60 000, with 1e9 Pa: from the curves that the page "peclet.dem vs the
+# DEM8 bulk-process benchmark" publishes (github.com/computational-chemical-engineering/peclet-examples, benchmarks/dem-bulk-dosta2024/data,
+# case1_large_M1_*.npz).
 PEERS='MUSEN,23787,24583
 LIGGGHTS,24003,24868
 Peclet (Hertz),23819,24785'
