@@ -45,7 +45,7 @@ awk -F, '{ printf "| %s | 1e9 | %.1f | %.1f | %.1f |\n", $1, $2, $3, $4 }' <<< "
 for modulus in $MODULI; do
   name=projectile-own-$modulus
   steel=$(awk -v e="$modulus" 'BEGIN { print (e >= 1e9 ? "2.1e11" : 10 * e) }') box=$(awk -v e="$modulus" 'BEGIN { print (e >= 1e9 ? "2.1e11" : e) }')
-  until=$(awk -v e="$modulus" 'BEGIN { print (e >= 1e9 ? 0.033 : 0.028) }')   # softer beads are crushed between ball and floor after that
+  until=$(awk -v e="$modulus" 'BEGIN { print (e >= 1e9 ? 0.033 : 0.028) }')   # after that, softer beads overlap too much between ball and floor
   [ -e "$OUT/$name.track" ] || scene $name projectile --set particles.0.source="\"$BED\"" --set particles.1.source="\"$OUT/projectile-ball.csv\"" --set time.until=$until \
     --set guards.overlap=0.5 --set material.0.young=$modulus --set material.1.young=$steel --set material.2.young=$box
   track $name
