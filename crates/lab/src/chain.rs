@@ -1,12 +1,15 @@
 //! The programs of one specimen, run one after the other in its folder, as a shell script would.
 //!
 //! The folder holds every scene, run and table, and `commands.sh` with the lines that made them. A file that is there is not made again:
-//! programs write whole files only, and `stamp` tells whether they belong to the same sample, options and programs.
+//! programs write whole files only, and `stamp` tells whether they belong to the same sample, options and programs. `finished` comes last.
+//! A lock beside the folder is held as long as one process works in it; others make other specimens, or wait.
 
 use crate::error::{LabError, Result};
 use crate::series::Series;
+use jobs::Lock;
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
+use std::cell::RefCell;
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -17,6 +20,10 @@ use std::time::Duration;
 const WORDS: &str = "words";
 /// Exit code of a run that a guard or a signal has stopped: its report says why.
 const GUARD: i32 = 3;
+/// What the files of a specimen are made from.
+const STAMP: &str = "stamp";
+/// The stamp again, once the specimen has come to its end.
+const FINISHED: &str = "finished";
 
 /// How programs are run.
 #[derive(Debug, Clone)]
@@ -29,39 +36,87 @@ pub struct Programs {
     pub stop: fn() -> bool,
 }
 
-/// The folder of one specimen.
-pub(crate) struct Chain<'a> {
+/// Where one specimen lies, and what it is made from.
+pub(crate) struct Place {
     pub folder: PathBuf,
     pub specimen: String,
-    pub programs: &'a Programs,
+    pub stamp: String,
+}
+
+impl Place {
+    fn holds(&self, name: &str) -> bool {
+        std::fs::read_to_string(self.folder.join(name)).is_ok_and(|old| old == self.stamp)
+    }
+
+    /// Whether this specimen has come to its end there.
+    pub(crate) fn is_finished(&self) -> bool {
+        self.holds(STAMP) && self.holds(FINISHED)
+    }
+
+    fn lock(&self) -> PathBuf {
+        self.folder.with_added_extension("lock")
+    }
+
+    /// Refuses a folder where another process makes another specimen.
+    pub(crate) fn check(&self) -> Result<()> {
+        let other = Lock::is_held(&self.lock()) && self.folder.join(STAMP).exists() && !self.holds(STAMP);
+        if other { Err(LabError::Busy { folder: self.folder.clone() }) } else { Ok(()) }
+    }
+
+    /// Takes the folder; `None`: another process works in it.
+    pub(crate) fn take<'a>(&'a self, programs: &'a Programs) -> Result<Option<Chain<'a>>> {
+        let (lock, above) = (self.lock(), self.folder.parent().unwrap_or(Path::new("")));
+        std::fs::create_dir_all(above)
+            .map_err(LabError::file(above, "cannot make this folder: choose another --dir"))?;
+        let taken =
+            Lock::take(&lock).map_err(LabError::file(&lock, "cannot write it: choose another --dir"))?;
+        Ok(taken.map(|lock| Chain { place: self, programs, lock: RefCell::new(lock) }))
+    }
+}
+
+/// The folder of one specimen, which is ours.
+pub(crate) struct Chain<'a> {
+    pub place: &'a Place,
+    programs: &'a Programs,
+    lock: RefCell<Lock>,
 }
 
 impl Chain<'_> {
     /// Makes the folder; what another sample, other options or other programs have left there is removed.
-    pub(crate) fn begin(&self, stamp: &str) -> Result<()> {
-        let kept = std::fs::read_to_string(self.file("stamp")).is_ok_and(|old| old == stamp);
-        if !kept && self.folder.join("stamp").exists() {
-            std::fs::remove_dir_all(&self.folder).map_err(LabError::file(&self.folder, "cannot empty it"))?;
+    pub(crate) fn begin(&self) -> Result<()> {
+        let (kept, folder) = (self.place.holds(STAMP), &self.place.folder);
+        if !kept && self.file(STAMP).exists() {
+            // Away at once: a process that is killed here leaves no half of it.
+            let old = folder.with_added_extension(format!("part-{}", jobs::here()));
+            std::fs::rename(folder, &old)
+                .and_then(|()| std::fs::remove_dir_all(&old))
+                .map_err(LabError::file(folder, "cannot empty it"))?;
         }
-        std::fs::create_dir_all(&self.folder)
-            .map_err(LabError::file(&self.folder, "cannot make this folder: choose another --dir"))?;
+        std::fs::create_dir_all(folder)
+            .map_err(LabError::file(folder, "cannot make this folder: choose another --dir"))?;
         if !kept {
             self.write(
                 "commands.sh",
                 "#!/bin/sh\n# The runs and tables of this specimen, in this folder.\nset -eu\n",
             )?;
-            self.write("stamp", stamp)?;
+            self.write(STAMP, &self.place.stamp)?;
         }
+        jobs::clear_parts(folder);
         Ok(())
     }
 
+    /// Notes that the specimen has come to its end.
+    pub(crate) fn finish(&self) -> Result<()> {
+        self.write(FINISHED, &self.place.stamp)
+    }
+
     pub(crate) fn file(&self, name: &str) -> PathBuf {
-        self.folder.join(name)
+        self.place.folder.join(name)
     }
 
     pub(crate) fn write(&self, name: &str, text: &str) -> Result<()> {
         let file = self.file(name);
-        std::fs::write(&file, text).map_err(LabError::file(&file, "cannot write it"))
+        jobs::replace(&file, text.as_bytes()).map_err(LabError::file(&file, "cannot write it"))
     }
 
     /// Runs a scene, where its run is not there; its report.
@@ -113,13 +168,14 @@ impl Chain<'_> {
         let mut command = Command::new(self.programs.folder.join(program));
         command
             .args(words)
-            .current_dir(&self.folder)
+            .current_dir(&self.place.folder)
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(stderr);
         let child =
             command.spawn().map_err(|source| LabError::Start { program: program.to_owned(), source })?;
-        let code = self.wait(child).map_err(LabError::file(&self.folder, "cannot wait for a program"))?;
+        let code =
+            self.wait(child).map_err(LabError::file(&self.place.folder, "cannot wait for a program"))?;
         match code {
             0 | GUARD => Ok(()),
             code => {
@@ -128,7 +184,7 @@ impl Chain<'_> {
                     said.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("it gave no reason");
                 let words = words.strip_prefix(&format!("{program}: ")).unwrap_or(words).to_owned();
                 Err(LabError::Program {
-                    specimen: self.specimen.clone(),
+                    specimen: self.place.specimen.clone(),
                     program: program.to_owned(),
                     code,
                     words,
@@ -149,6 +205,7 @@ impl Chain<'_> {
                 let _ = kill_process(Pid::from_child(&child), Signal::TERM);
                 told = true;
             }
+            self.lock.borrow_mut().beat();
             std::thread::sleep(Duration::from_millis(5));
         }
     }

@@ -37,6 +37,10 @@ pub enum LabError {
     Stopped { run: String, why: String },
     #[error("cannot start threads")]
     Threads(#[from] rayon::ThreadPoolBuildError),
+    #[error(
+        "{}: another process makes a specimen there with another sample, other options or programs: wait for its end, or give another --dir", .folder.display()
+    )]
+    Busy { folder: PathBuf },
     #[error("a signal has stopped a program")]
     Interrupted,
     #[error("stopped by a signal: {done} of {all} specimens are finished")]

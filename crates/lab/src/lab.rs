@@ -1,6 +1,6 @@
 //! A test on all its specimens: their scenes, their runs, their curves.
 
-use crate::chain::{Chain, Programs, stamp};
+use crate::chain::{Chain, Place, Programs, stamp};
 use crate::compose::number;
 use crate::error::{LabError, Result};
 use crate::recipes::{Context, Loading, Part, Prepared, Recipe, Stresses, Value};
@@ -14,6 +14,10 @@ use rayon::prelude::*;
 use serde_json::Value as Json;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
+use std::time::Duration;
+
+/// Between looks at a specimen that another process makes.
+const LOOK: Duration = Duration::from_millis(100);
 
 /// A test, ready to run.
 pub struct Lab {
@@ -143,42 +147,88 @@ impl Lab {
         begins: &(dyn Fn(&str) + Sync),
         ends: &(dyn Fn() + Sync),
     ) -> Result<Specimens> {
-        let made_from = stamp(
-            &format!("{}\n{:?}", self.recipe.name(), self.request),
-            &self.sample.files,
-            &programs.folder,
-        )?;
-        let made_from = made_from + &self.sample.compose().text();
+        let places = self.places(folder, programs)?;
+        places.iter().try_for_each(Place::check)?;
         let finished = AtomicUsize::new(0);
-        let one = |loading: &Loading| {
-            if (programs.stop)() {
-                return Err(LabError::Interrupted);
-            }
-            let name = self.name(loading);
-            begins(&name);
-            let chain = Chain { folder: folder.join(&name), specimen: name, programs };
-            let outcome = self.one(loading, &chain, &made_from);
-            ends();
-            finished.fetch_add(usize::from(outcome.is_ok()), SeqCst);
-            Ok((loading.clone(), outcome?))
+        let one = |(loading, place): (&Loading, &Place), wait: bool| {
+            let outcome = self.one(loading, place, programs, (begins, wait))?;
+            finished.fetch_add(usize::from(outcome.is_some()), SeqCst);
+            outcome.iter().for_each(|_| ends());
+            Ok(outcome)
         };
         // Each thread waits for the programs of one specimen.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(at_once).build()?;
-        let list: Result<Vec<_>> =
-            pool.install(|| self.loadings.par_iter().with_max_len(1).map(one).collect());
+        let all = || self.loadings.par_iter().zip(&places).with_max_len(1);
+        let made: Result<Vec<Option<Outcome>>> = pool.install(|| {
+            let first: Vec<_> = all().map(|of| one(of, false)).collect::<Result<_>>()?;
+            // Then those that another process has begun.
+            all()
+                .zip(first)
+                .map(|(of, made)| made.map_or_else(|| one(of, true), |made| Ok(Some(made))))
+                .collect()
+        });
         if (programs.stop)() {
             return Err(LabError::Signal { done: finished.into_inner(), all: self.loadings.len() });
         }
-        Ok(Specimens { list: list? })
+        let outcomes = made?.into_iter().map(|made| made.ok_or(LabError::Interrupted));
+        let list = self.loadings.iter().cloned().zip(outcomes).map(|(loading, made)| Ok((loading, made?)));
+        Ok(Specimens { list: list.collect::<Result<_>>()? })
     }
 
-    /// One specimen from its preparation to its curve.
-    fn one(&self, loading: &Loading, chain: &Chain, made_from: &str) -> Result<Outcome> {
-        chain.begin(&stream::sha256(format!("{made_from}{loading:?}").as_bytes()))?;
-        match self.tested(loading, chain) {
-            Err(stopped @ LabError::Stopped { .. }) => Ok(Outcome::Stopped(stopped.to_string())),
-            other => other,
-        }
+    /// The specimens that are not finished in a folder.
+    ///
+    /// # Errors
+    /// A file of the sample or a program that cannot be read; a folder where another process makes other specimens.
+    pub fn open(&self, folder: &Path, programs: &Programs) -> Result<Vec<&Loading>> {
+        let places = self.places(folder, programs)?;
+        places.iter().try_for_each(Place::check)?;
+        let open = self.loadings.iter().zip(places).filter(|(_, place)| !place.is_finished());
+        Ok(open.map(|(loading, _)| loading).collect())
+    }
+
+    /// Where each specimen lies.
+    fn places(&self, folder: &Path, programs: &Programs) -> Result<Vec<Place>> {
+        // Stresses are those of each loading: a specimen is the same among others.
+        let request = Request { stress: Vec::new(), ..self.request.clone() };
+        let asked = format!("{}\n{request:?}", self.recipe.name());
+        let made_from = stamp(&asked, &self.sample.files, &programs.folder)? + &self.sample.compose().text();
+        let place = |loading: &Loading| {
+            let specimen = self.name(loading);
+            let stamp = stream::sha256(format!("{made_from}{loading:?}").as_bytes());
+            Place { folder: folder.join(&specimen), specimen, stamp }
+        };
+        Ok(self.loadings.iter().map(place).collect())
+    }
+
+    /// One specimen from its preparation to its curve; `None`: another process makes it, unless this one is to wait for that.
+    fn one(
+        &self,
+        loading: &Loading,
+        place: &Place,
+        programs: &Programs,
+        (begins, wait): (&(dyn Fn(&str) + Sync), bool),
+    ) -> Result<Option<Outcome>> {
+        let chain = loop {
+            if (programs.stop)() {
+                return Err(LabError::Interrupted);
+            }
+            match place.take(programs)? {
+                Some(chain) => break chain,
+                None if !wait => return Ok(None),
+                None => {
+                    begins(&format!("{}, which another process makes", place.specimen));
+                    std::thread::sleep(LOOK);
+                }
+            }
+        };
+        begins(&place.specimen);
+        chain.begin()?;
+        let outcome = match self.tested(loading, &chain) {
+            Err(stopped @ LabError::Stopped { .. }) => Outcome::Stopped(stopped.to_string()),
+            other => other?,
+        };
+        chain.finish()?;
+        Ok(Some(outcome))
     }
 
     fn tested(&self, loading: &Loading, chain: &Chain) -> Result<Outcome> {
@@ -186,7 +236,7 @@ impl Lab {
         let (mut warnings, mut prepared) = (Vec::new(), Prepared::default());
         let preparation = self.recipe.preparation(&of)?;
         if let Some(part) = &preparation {
-            let scene = self.compose_preparation(&of, part, self.sample.compose_in(&chain.folder));
+            let scene = self.compose_preparation(&of, part, self.sample.compose_in(&chain.place.folder));
             let report = self.simulate("prepare", &scene, part, chain)?;
             warnings.extend(not_at_rest(&report));
             warnings.extend(self.moves(loading, chain)?);
@@ -206,7 +256,7 @@ impl Lab {
         }
         let part = self.recipe.test(&of, &prepared)?;
         let scene =
-            self.compose_test(&of, &part, preparation.is_some(), self.sample.compose_in(&chain.folder));
+            self.compose_test(&of, &part, preparation.is_some(), self.sample.compose_in(&chain.place.folder));
         let report = self.simulate("test", &scene, &part, chain)?;
         warnings.extend(not_held(&report));
         let tables = chain.tables(&self.recipe.tables(&of, &prepared))?;

@@ -13,6 +13,7 @@ mod every_key;
 mod every_option;
 mod example_scenes;
 mod help_examples;
+mod lab_folders;
 mod lab_test;
 mod layout;
 mod ledger_line;

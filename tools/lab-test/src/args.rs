@@ -12,7 +12,8 @@ const NOTES: &str = "SAMPLE.toml is a scene without walls, times and outputs: ma
     Examples:\n\
     \x20 lab-test crush stone.toml --seeds 5 -o curves.csv --plot curves.svg --report crush.json\n\
     \x20 lab-test direct-shear soil.toml --stress '50 kPa' --print-scene\n\
-    \x20 lab-test triaxial soil.toml --grains 1500 --print-preparation -o prepare.toml";
+    \x20 lab-test triaxial soil.toml --grains 1500 --print-preparation -o prepare.toml\n\
+    \x20 lab-test crush stone.toml --seeds 50 --dir stones --jobs-file jobs.txt";
 
 /// Run a standard laboratory test on a sample of grains: curves as CSV, a plot, a page, and what the curves come to
 #[derive(clap::Parser, Debug)]
@@ -63,6 +64,9 @@ pub struct Args {
     /// Folder for scenes, runs and tables, one for each specimen; what is finished there is used again [default: none is kept]
     #[arg(long, value_name = "DIR")]
     pub dir: Option<PathBuf>,
+    /// Run nothing while specimens are open: write a shell line for each of them, for parallel, make -j or a batch system; the same command then evaluates them
+    #[arg(long, value_name = "FILE", requires = "dir")]
+    pub jobs_file: Option<PathBuf>,
     /// Run nothing; print the scene of the test, with the specimen as high as it is expected to become
     #[arg(long)]
     pub print_scene: bool,
@@ -165,11 +169,15 @@ impl Args {
         if let Some(page) = self.page.as_ref().filter(|page| page.extension().is_none_or(|e| e != "html")) {
             return Err(usage(format!("--page {}: use a name that ends in .html", page.display())));
         }
+        if self.jobs_file.is_some() && self.sample.path().is_none() {
+            return Err(usage("--jobs-file: its lines name the sample: give SAMPLE.toml, not stdin"));
+        }
         let Some(printed) = self.printed() else { return Ok(()) };
         let nothing = [
             ("--plot", self.plot.is_some()),
             ("--page", self.page.is_some()),
             ("--words", self.words.is_some()),
+            ("--jobs-file", self.jobs_file.is_some()),
             ("--dir", self.dir.is_some()),
         ];
         if let Some((option, _)) = nothing.into_iter().find(|(_, given)| *given) {

@@ -1,6 +1,7 @@
 //! Runs a standard laboratory test on a sample of grains.
 
 mod args;
+mod listed;
 mod outputs;
 mod words;
 
@@ -27,6 +28,13 @@ fn lab_test(args: Args) -> anyhow::Result<Report> {
     let kept = args.dir.as_ref().map(std::path::absolute).transpose()?;
     let own = tempfile::tempdir().context("cannot make a folder for the runs: give one with --dir")?;
     let folder = kept.as_deref().unwrap_or(own.path());
+    if let Some(file) = &args.jobs_file {
+        let open = lab.open(folder, &programs(1)?).map_err(refused)?;
+        listed::write(file, &args, &lab, &open)?;
+        if !open.is_empty() {
+            return Ok(listed::report(&open));
+        }
+    }
     let specimens = run(&lab, folder, args.dir.is_some())?;
     specimens.list.iter().for_each(|(loading, outcome)| outputs::warn(&lab.name(loading), outcome));
     let summary = lab.summary(&specimens);
@@ -87,11 +95,14 @@ fn print_scene(args: &Args, toml: &str, lab: &Lab) -> anyhow::Result<Report> {
     Ok(Report::new(format!("the scene of the {name}; nothing was run")))
 }
 
+fn programs(threads: usize) -> anyhow::Result<Programs> {
+    Ok(Programs { folder: beside_this_program().map_err(refused)?, threads, stop: cli::stop_requested })
+}
+
 fn run(lab: &Lab, folder: &Path, kept: bool) -> anyhow::Result<Specimens> {
     let threads = rayon::current_num_threads();
     let at_once = threads.min(lab.loadings().len());
-    let programs =
-        Programs { folder: beside_this_program()?, threads: threads / at_once, stop: cli::stop_requested };
+    let programs = programs(threads / at_once)?;
     cli::stop_in_order();
     let progress = Progress::new("specimens", lab.loadings().len() as u64);
     let begins = |name: &str| progress.say(name.to_owned());

@@ -88,7 +88,7 @@ impl<'a> Session<'a> {
     pub fn run(&self) -> Result<Standing<'a>> {
         std::fs::create_dir_all(self.dir.join("batches"))
             .map_err(crate::error::file(&self.dir, "cannot create the folder"))?;
-        [self.dir.clone(), self.dir.join("batches")].iter().for_each(|f| crate::trial::lock::clear_files(f));
+        [self.dir.clone(), self.dir.join("batches")].iter().for_each(|f| jobs::clear_parts(f));
         let recipe: &'a Recipe = self.recipe;
         if let Some((name, test)) = recipe.open_blank().filter(|_| self.candidates) {
             let message = format!(

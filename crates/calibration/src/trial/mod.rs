@@ -86,7 +86,7 @@ fn slug(name: &str) -> String {
 pub fn write(recipe: &Recipe, dir: &Path, trial: &Trial, runs: &[Run]) -> Result<()> {
     let folder = folder(dir, trial.number);
     std::fs::create_dir_all(&folder).map_err(file(&folder, "cannot create the folder"))?;
-    lock::clear_files(&folder);
+    jobs::clear_parts(&folder);
     let values: serde_json::Map<String, serde_json::Value> =
         recipe.parameters.iter().zip(&trial.z).map(|(p, z)| (p.name.clone(), p.value(*z).into())).collect();
     let about = serde_json::json!({ "trial": trial.number, "step": recipe.steps[trial.step].name, "batch": trial.batch, "parameters": values, "with": recipe.steps[trial.step].with });
@@ -107,12 +107,5 @@ fn pretty(value: &serde_json::Value) -> String {
 /// # Errors
 /// A full disk, a folder that cannot be written to.
 pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".part-{}", run::here()));
-    let part = path.with_file_name(name);
-    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
-    written.map_err(|e| {
-        let _ = std::fs::remove_file(&part);
-        CalibrateError::File { path: path.to_owned(), what: "cannot write (is the disk full?)", source: e }
-    })
+    jobs::replace(path, bytes).map_err(file(path, "cannot write (is the disk full?)"))
 }

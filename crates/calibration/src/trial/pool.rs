@@ -1,7 +1,7 @@
 //! Runs many jobs, several at a time, beside other processes that may work on the same folder.
 
 use super::Run;
-use super::lock::Lock;
+use super::lock;
 use super::run::{self, Ended, execute, is_done};
 use crate::error::{CalibrateError, Result};
 use std::sync::Mutex;
@@ -62,7 +62,7 @@ impl Pool<'_> {
             && !self.give_up.load(SeqCst)
             && !is_done(&run.file, &run.job, self.since)
         {
-            let Some(mut lock) = Lock::take(&run.file)? else {
+            let Some(mut lock) = lock::take(&run.file)? else {
                 std::thread::sleep(Duration::from_millis(100));
                 continue;
             };
@@ -91,7 +91,7 @@ pub fn one(job_file: &std::path::Path, stop: fn() -> bool) -> Result<Option<Ende
     if is_done(job_file, &job, u64::MAX) {
         return Ok(run::ended(job_file, &job));
     }
-    let Some(mut lock) = Lock::take(job_file)? else {
+    let Some(mut lock) = lock::take(job_file)? else {
         return Err(CalibrateError::Folder {
             folder: job_file.to_owned(),
             message: "another process runs it".to_owned(),

@@ -1,7 +1,7 @@
 //! One run: its command in its own folder.
 
-use super::lock::Lock;
 use crate::error::{CalibrateError, Result, file};
+use jobs::{Lock, here};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -56,18 +56,6 @@ impl Ended {
     pub fn is_final(&self) -> bool {
         !self.timed_out && (self.exit == 0 || self.exit == STOPPED)
     }
-}
-
-/// Machine and process, as part of names.
-pub fn here() -> String {
-    format!("{}-{}", host(), std::process::id())
-}
-
-/// The name of this machine.
-pub(super) fn host() -> String {
-    let name = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
-    let name: String = name.trim().chars().filter(|c| c.is_ascii_alphanumeric() || *c == '.').collect();
-    if name.is_empty() { "host".to_owned() } else { name }
 }
 
 /// The folder of a run.

@@ -124,6 +124,7 @@ pub const EXAMPLES: &[&str] = &[
     "stone-pack grains.csv library --content 20% --stone-density 2600 --soil-density 2600 --grading grading.csv --units m --rigid stones.toml --output soil.ply --quiet",
     "stone-pack run.mcap library --content 0.1 --stone-density 2600 --tries 5 --within box:0,0,0,0.1,0.1,0.1 -o of-run.ply",
     "lab-test crush stone.toml --set bond.0.damping=0.1 --strain 3% --speed 0.1 --seeds 2 --seed 3 --rows 30 --dir specimens --plot crush.svg --page crush.html --words crush.md -o crush.csv --report r.json --threads 2 -q",
+    "lab-test crush stone.toml --seeds 2 --dir listed --jobs-file lines.txt",
     "lab-test direct-shear soil.toml --stress 1kPa,2kPa --size 0.06 --friction 0 --rest 1e-3 --print-preparation",
     "lab-test triaxial-periodic soil.toml --set gravity=[0,0,0] --grains 200 --print-scene -o scene.toml",
     "lab-test triaxial soil.toml --grains 500 --inertial 0.01 --print-scene --output scene.toml --quiet",

@@ -1,0 +1,79 @@
+//! Folders of lab-test that several processes share, and specimens that others make.
+
+use grainpipe_tests::lab::SAND;
+use grainpipe_tests::scenes::folder;
+use grainpipe_tests::tools::{line, program, succeed, tool};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Duration;
+
+const SHEAR: &[&str] =
+    &["direct-shear", "sand.toml", "--grains", "200", "--stress", "1000", "--rows", "40", "--strain", "6%"];
+
+/// Lines of `commands.sh` of all specimens in a folder that start with a program.
+fn commands(dir: &Path, program: &str) -> usize {
+    let specimens =
+        fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_dir());
+    let lines = |specimen: PathBuf| fs::read_to_string(specimen.join("commands.sh")).unwrap();
+    specimens.map(|s| lines(s).lines().filter(|line| line.starts_with(program)).count()).sum()
+}
+
+/// Two processes on one folder make each specimen once and come to the same results; one with other options is refused while they work.
+#[test]
+fn two_processes_share_a_folder() {
+    let lab = folder(&[("sand.toml", SAND.to_owned())]);
+    let path = lab.path();
+    let words = |out: &'static str| {
+        [SHEAR, &["--seeds", "3", "--threads", "1", "--dir", "d", "-q", "-o", out]].concat()
+    };
+    let start = |words: &[&str]| {
+        let mut command = Command::new(program("lab-test"));
+        command.current_dir(path).args(words).spawn().unwrap()
+    };
+    let mut both = ["a.csv", "b.csv"].map(|out| start(&words(out)));
+    while !path.join("d/stress=1000,seed=0/stamp").exists() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let other = [SHEAR, &["--speed", "0.2", "--dir", "d", "-q", "-o", "c.csv"]].concat();
+    let refused = tool(path, "lab-test", &other);
+    assert!(both.iter_mut().all(|child| child.wait().unwrap().success()));
+    assert!(refused.code == 1 && refused.stderr.contains("another process makes"), "{}", refused.stderr);
+    assert!(fs::read(path.join("a.csv")).unwrap() == fs::read(path.join("b.csv")).unwrap());
+    assert_eq!(commands(&path.join("d"), "dem-run"), 6, "each specimen is prepared and tested once");
+    let left: Vec<_> = fs::read_dir(path.join("d")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert!(left.len() == 3 && left.iter().all(|path| path.is_dir()), "{left:?}");
+    succeed(path, "lab-test", &other);
+    assert_eq!(commands(&path.join("d/"), "dem-run"), 6, "the folder of one specimen was emptied");
+}
+
+/// The lines of `--jobs-file` make the specimens, which the same command then evaluates; those that are made are in no line.
+#[test]
+fn listed_specimens_are_made_by_their_lines() {
+    let lab = folder(&[("sand.toml", SAND.to_owned())]);
+    let path = lab.path();
+    let whole = [SHEAR, &["--stress", "2000", "--seeds", "2", "-q"]].concat();
+    succeed(path, "lab-test", &[&whole[..], &["--dir", "e", "-o", "a.csv"]].concat());
+    let words = [&whole[..], &["--dir", "d", "--jobs-file", "jobs.txt", "-o", "b.csv"]].concat();
+    succeed(path, "lab-test", &words);
+    let jobs = fs::read_to_string(path.join("jobs.txt")).unwrap();
+    assert!(jobs.lines().count() == 4 && !path.join("b.csv").exists(), "{jobs}");
+    let run =
+        |jobs: &str| jobs.lines().for_each(|job| assert_eq!(line(Path::new("/"), job).code, 0, "{job}"));
+    run(jobs.lines().next().unwrap());
+    succeed(path, "lab-test", &words);
+    let left = fs::read_to_string(path.join("jobs.txt")).unwrap();
+    assert_eq!(left.lines().collect::<Vec<_>>(), jobs.lines().skip(1).collect::<Vec<_>>());
+    run(&left);
+    let made = commands(&path.join("d"), "dem-run");
+    succeed(path, "lab-test", &words);
+    assert_eq!(fs::read_to_string(path.join("jobs.txt")).unwrap(), "");
+    assert!(fs::read(path.join("a.csv")).unwrap() == fs::read(path.join("b.csv")).unwrap());
+    assert_eq!((made, commands(&path.join("d"), "dem-run")), (8, 8), "nothing is made again");
+    let stdin = tool(path, "lab-test", &["crush", "--dir", "e", "--jobs-file", "jobs.txt"]);
+    assert!(
+        stdin.code == 2 && stdin.stderr.contains("--jobs-file: its lines name the sample"),
+        "{}",
+        stdin.stderr
+    );
+}
