@@ -63,18 +63,28 @@ drawings = $(wildcard $(addprefix $(dir $(1)),$(shell grep -oE '"[^" :,]+\.(ply|
 needs = $(filter-out $(in)/$(2),$(call named,$(call do.$(2),$(1)))) $(call changed,$(1),$(2))
 
 plant = $(notdir $(@D))
-remember = printf '%s\n' '$(subst ','\'',$(strip $(call do.$(@F),$(plant))))' > $(@D)/.$(@F).command
+command = $(call do.$(@F),$(plant))
+quoted = '$(subst ','\'',$(strip $(command)))'
+remember = $(if $(call option,n),,printf '%s\n' $(quoted) > $(@D)/.$(@F).command)
+# Several makes may share OUT: one makes a file, and the others wait and find it made, by the same rules as make has. The system ends the lock of
+# a make that is killed, when the programs have ended that it has started (flock; a machine without it has no lock).
+option = $(findstring $(1),$(firstword -$(MAKEFLAGS)))
+made = [ -e $@ ] && printf '%s\n' $(quoted) | cmp -s - $(@D)/.$(@F).command $(foreach file,$(filter-out FORCE,$^),&& [ ! $(file) -nt $@ ])
+# make -n shows the command alone.
+once = $(if $(call option,n),,$(locked))
+define locked
+mkdir -p $(@D); exec 9>> $(@D)/.$(@F).lock; \
+if command -v flock > /dev/null && ! flock -n 9; then echo '$@: another make makes it: waiting' >&2; flock 9; fi; \
+$(if $(call option,B),,if $(made); then exit 0; fi;) $(if $(call option,s),,printf '%s\n' $(quoted);)
+endef
 all = $(PLANTS:%=$(OUT)/%/$(1))
 SCANNED := $(foreach plant,$(PLANTS),$(if $(call at,$(plant),SCAN),$(plant)))
 scanned = $(SCANNED:%=$(OUT)/%/$(1))
 define to-stdout
-@mkdir -p $(@D)
-$(call do.$(@F),$(plant)) > $@.new
-@mv -f $@.new $@; $(remember)
+@$(once) $(command) > $@.new; mv -f $@.new $@; $(remember)
 endef
 define to-file
-$(call do.$(@F),$(plant)) -o $@
-@$(remember)
+@$(once) $(command) -o $@; $(remember)
 endef
 
 $(call scanned,cropped.ply): $(OUT)/%/cropped.ply: $$(call at,$$*,SCAN) $$(call needs,$$*,cropped.ply) | $(TOOLS)
@@ -88,9 +98,7 @@ $(call scanned,walls.mcap): $(OUT)/%/walls.mcap: $(OUT)/%/sampled.ply $$(call ne
 
 # A run that is stopped stays as unfinished.mcap, which --resume continues and dem-view shows.
 $(call all,run.mcap): $(OUT)/%/run.mcap: $$(if $$(call at,$$*,SCAN),$(OUT)/$$*/walls.mcap) $$(call drawings,$$(call scene,$$*)) $$(call needs,$$*,run.mcap) | $(TOOLS)
-	@mkdir -p $(@D)
-	$(call do.$(@F),$(plant)) -o $(@D)/unfinished.mcap
-	@mv -f $(@D)/unfinished.mcap $@; $(remember)
+	@$(once) $(command) -o $(@D)/unfinished.mcap; mv -f $(@D)/unfinished.mcap $@; $(remember)
 
 $(call all,page.html): $(OUT)/%/page.html: $(OUT)/%/run.mcap $$(call needs,$$*,page.html) | $(TOOLS)
 	$(to-file)

@@ -21,6 +21,9 @@ slope() {
   shift 3
   fills=$(grep -c '^\[\[fill\]\]' "$scene")
   for ((k = 0; k < fills; k++)); do own+=(--set "fill.$k.seed=$((10 * seed + k))"); done
+  # Several processes may share the folder; the others wait for a run, and then use it.
+  exec 9>> "$run.lock"
+  if command -v flock > /dev/null; then flock 9; fi
   [ -e "$run.mcap" ] || dem-run "$scene" "${own[@]}" "$@" --threads 1 -q --report "$run.json" -o "$run.mcap"
   rm -f "$run.slope"
   # A small hopper may jam: grains that hang in it are no heap.

@@ -211,3 +211,34 @@ fn the_repositorys_makefiles_take_swapped_stages_from_either_folder() {
     }
     assert!(make(&root(), &[]).contains("demo "), "the list of targets");
 }
+
+/// Notes each start and takes a while.
+const SLOW: &str = r#"import sys, time
+open("starts", "a").write("one\n"); time.sleep(0.7)
+open(sys.argv[sys.argv.index("-o") + 1], "wb").write(b"a run")
+"#;
+
+/// One of two makes that share a folder makes each file, the other waits and finds it; a make that is to make all again does.
+#[test]
+fn two_makes_on_one_folder_make_each_file_once() {
+    let tools = ["python3", "flock"].map(|tool| Command::new(tool).arg("--version").output().is_ok());
+    if tools.contains(&false) {
+        return skip("python3, flock");
+    }
+    let folder = plant();
+    let folder = folder.path();
+    fs::write(folder.join("dem.py"), SLOW).unwrap();
+    let words = ["DEM=python3 dem.py", "out/chute/run.mcap"];
+    std::thread::scope(|threads| {
+        let both = [0, 1].map(|_| threads.spawn(|| make(folder, &words)));
+        let said = both.map(|one| one.join().unwrap());
+        assert!(said.iter().any(|words| words.contains("python3 dem.py chute.toml")), "{said:?}");
+    });
+    let starts = || fs::read_to_string(folder.join("starts")).unwrap().lines().count();
+    assert_eq!(starts(), 1);
+    assert_eq!(fs::read(folder.join("out/chute/run.mcap")).unwrap(), b"a run");
+    make(folder, &words);
+    assert_eq!(starts(), 1);
+    make(folder, &["-B", words[0], words[1]]);
+    assert_eq!(starts(), 2);
+}

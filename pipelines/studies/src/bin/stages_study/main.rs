@@ -43,6 +43,14 @@ fn study(folder: &Path, file: &Path, part: Option<&str>) -> Result<(), String> {
     // Commands run in the folder and name its files.
     let folder = &std::path::absolute(folder).map_err(|why| format!("{}: {why}", folder.display()))?;
     std::fs::create_dir_all(folder).map_err(|why| format!("{}: {why}", folder.display()))?;
+    let lock =
+        std::fs::File::create(folder.join("lock")).map_err(|why| format!("{}: {why}", folder.display()))?;
+    if lock.try_lock().is_err() {
+        return Err(format!(
+            "{}: another process works there: wait for its end, or give another folder",
+            folder.display()
+        ));
+    }
     let seeds = std::env::var("SEEDS").ok().and_then(|s| s.parse().ok()).filter(|n| *n >= 2).unwrap_or(5);
     if part.is_none_or(|p| p == "fidelity") {
         eprintln!("stages_study: fidelity, {seeds} seeds");
