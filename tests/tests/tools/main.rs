@@ -29,6 +29,7 @@ mod rock_fill;
 mod scans;
 mod scene;
 mod sinter_box;
+mod stage_variants;
 mod streams;
 mod view_in_chromium;
 mod walls_told;
