@@ -60,7 +60,11 @@ mod walls;
 
 pub use kernel::{device_tables, ported, thread};
 #[cfg(not(target_arch = "nvptx64"))]
+pub use model::bonds::find::bonds_at_start;
+#[cfg(not(target_arch = "nvptx64"))]
 pub use model::bonds::limit::entries as bonds_of;
+#[cfg(not(target_arch = "nvptx64"))]
+pub use model::bonds::now::bond_now;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use model::in_range::magnitudes;
 #[cfg(not(target_arch = "nvptx64"))]
@@ -72,8 +76,8 @@ pub use model::start::time_step;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use model::{
     Allowed, BondedParticle, BreakMode, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair,
-    CriticalPartner, Halt, Limit, OutOfRange, Partner, Quantity, RepeatedMotion, SetupError, StateMismatch,
-    StepCause, Stiffer, Subject,
+    CriticalPartner, Halt, Limit, OutOfRange, Partner, Pull, Quantity, RepeatedMotion, SetupError,
+    StateMismatch, StepCause, Stiffer, Subject,
 };
 #[cfg(not(target_arch = "nvptx64"))]
 pub use observe::record::ContactRecord;

@@ -1,6 +1,6 @@
 //! A batch script for Slurm.
 
-use crate::files::{FINISHED, OF_BODIES, STATES, WHOLE};
+use crate::files::{DUMPS, FINISHED, OF_BODIES, STATES, WHOLE};
 use std::path::Path;
 
 /// The script of a scene on so many ranks; `rigid`: it has rigid bodies, whose file is written after the state.
@@ -16,6 +16,9 @@ pub fn slurm(scene: &str, ranks: usize, rigid: bool) -> String {
         ),
         false => String::new(),
     };
+    let dumps = || DUMPS.iter().map(|dump| dump.trim_end_matches(".dump"));
+    let names: String = dumps().map(|dump| format!(" -var {dump} \"{dump}-$part.dump\"")).collect();
+    let old = dumps().map(|dump| format!("{dump}-*.dump")).collect::<Vec<_>>().join(" ");
     format!(
         "#!/bin/bash\n#SBATCH --job-name={name}\n#SBATCH --ntasks={ranks}\n#SBATCH --output=slurm-%j.out\n\
          # Set the time limit and the partition of your cluster:  sbatch --time=12:00:00 --partition=NAME batch.sh\n\
@@ -26,10 +29,10 @@ pub fn slurm(scene: &str, ranks: usize, rigid: bool) -> String {
          for state in $(ls -t {a} {b} 2> /dev/null); do\n  \
            tail -c {length} \"$state\" | tr -d '\\0' | grep -q '{WHOLE}' || continue\n{bodies}  \
            while [ -e \"frames-$part.dump\" ]; do part=$((part + 1)); done\n  \
-           options=(-var state \"$state\" -var frames \"frames-$part.dump\" -var zone \"zone-$part.dump\" -var pairs \"pairs-$part.dump\" -var touches \"touches-$part.dump\")\n  \
+           options=(-var state \"$state\"{names})\n  \
            break\n\
          done\n\
-         [ ${{#options[@]}} -gt 0 ] || rm -f frames-*.dump zone-*.dump pairs-*.dump touches-*.dump\n\
+         [ ${{#options[@]}} -gt 0 ] || rm -f {old}\n\
          srun ${{LMP:-lmp}} -in run.in \"${{options[@]}}\"\n\
          # Then, where Grainpipe is:  dem-lammps SCENE.toml --read-dump frames.dump -o run.mcap\n"
     )
@@ -43,6 +46,7 @@ mod tests {
     fn the_script_is_text() {
         let script = slurm("a plant.toml", 3, false);
         assert!(script.starts_with("#!/bin/bash\n#SBATCH --job-name=a-plant\n#SBATCH --ntasks=3\n"));
+        assert!(DUMPS.iter().all(|dump| script.contains(&dump.replace(".dump", "-$part.dump"))));
         assert!(!script.contains('\0') && script.contains("tr -d '\\0'"), "Slurm refuses bytes of zero");
     }
 }

@@ -1,4 +1,4 @@
-//! Bonds of beams that do not break: `bond_style bpm/rotational`, a type for each set of coefficients.
+//! Bonds of beams: `bond_style bpm/rotational`, a type for each set of coefficients. When they break is in [`crate::breaking`].
 //!
 //! ```text
 //! U = ½ k_r (r − L)² + ½ k_s γ² + ½ k_b β² + ½ k_t φ²       at small angles, on both engines: γ where the halves meet, half-way between the centres
@@ -8,21 +8,15 @@
 //!
 //! Wang (2009), Acta Geotechnica 4, doi:10.1007/s11440-008-0072-1, is what LAMMPS has. It measures bending and twist by angles, we by sines.
 
+use crate::breaking;
 use crate::data::number_of;
-use crate::error::{LammpsError, Result};
+use crate::error::Result;
 use crate::law::Target;
 use crate::refusal::Refusal;
-use dem::setup::bond::cluster_of;
-use dem::setup::{Bond, BondKind, Particle, Setup};
-use dem::{BondState, Simulation};
+use dem::setup::{Bond, BondKind, BondNumbers, Setup};
 use run::RunError;
-use scene::SceneError;
 use std::collections::HashMap;
-use std::f64::consts::PI;
 use std::io::{self, Write};
-
-/// Force [N] and moment [N·m] that no bond reaches.
-const NEVER: f64 = 1e100;
 
 /// What LAMMPS cannot do with bonds.
 pub fn refused(setup: &Setup, target: Target) -> Vec<Refusal> {
@@ -39,11 +33,6 @@ pub fn refused(setup: &Setup, target: Target) -> Vec<Refusal> {
         if !matches!(law.kind, BondKind::Beam { .. }) {
             let why = "bonds of LAMMPS have their section half-way between the centres".to_owned();
             refuse(&format!("bond.{k}.kind"), why, "use kind = \"beam\", or dem-run");
-        }
-        if law.strength.tension.is_finite() || law.strength.shear.is_finite() {
-            let why =
-                "LAMMPS breaks a bond by the sum of its four loads, not by tension or by shear".to_owned();
-            refuse(&format!("strength of bond.{k}"), why, "leave strengths out, or use dem-run");
         }
         if law.at > 0.0 {
             let why = "bonds of LAMMPS are there from the start".to_owned();
@@ -69,52 +58,39 @@ pub fn refused(setup: &Setup, target: Target) -> Vec<Refusal> {
 /// The bonds of a scene.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Bonds {
-    /// Type, from 1, and the ids of both grains.
-    pairs: Vec<(usize, [u32; 2])>,
+    /// Ids of both grains, the lower first, and what joins them.
+    pub made: Vec<([u32; 2], BondNumbers)>,
+    /// The type of each, from 1.
+    types: Vec<usize>,
     /// Coefficients of each type, in the order of LAMMPS.
     kinds: Vec<[f64; 12]>,
     /// Length of the longest [m].
     longest: f64,
     replaces_contact: bool,
+    breaks: bool,
 }
 
 impl Bonds {
-    /// Those that the engine makes at the start.
+    /// Those that are there at the start.
     ///
     /// # Errors
     /// What the engine refuses.
-    pub fn of(setup: &Setup, name: &str) -> Result<Bonds> {
+    pub fn of(setup: &Setup) -> Result<Bonds> {
         let mut bonds = Bonds::default();
         if setup.bonds.is_empty() {
             return Ok(bonds);
         }
-        let mut engine = Simulation::new(setup.clone()).map_err(RunError::from)?;
-        let made = engine.bonds().map_err(|halt| {
-            let why = scene::advice::explain_halt(&halt);
-            LammpsError::Scene(SceneError::file(name, why, "place grains so that they overlap less"))
-        })?;
-        let mut sorted: Vec<&Particle> = setup.particles.iter().collect();
-        sorted.sort_unstable_by_key(|p| p.id);
         let mut known: HashMap<[u64; 12], usize> = HashMap::new();
-        for bond in made {
-            let ends = bond.ids.map(|id| found(&sorted, id));
-            let numbers = match ends {
-                [Some(a), Some(b)] => {
-                    law(setup, &bond, [a, b]).and_then(|law| coefficients(setup, law, &bond, [a, b]))
-                }
-                _ => None,
-            };
-            let numbers = numbers.ok_or_else(|| {
-                let why =
-                    format!("grains {} and {}: no [[bond]] has made their bond", bond.ids[0], bond.ids[1]);
-                LammpsError::Scene(SceneError::file(name, &why, "use dem-run"))
-            })?;
+        for (ids, bond) in dem::bonds_at_start(setup).map_err(RunError::from)? {
+            let numbers = coefficients(&bond);
             let kind = *known.entry(numbers.map(f64::to_bits)).or_insert_with(|| {
                 bonds.kinds.push(numbers);
                 bonds.kinds.len()
             });
-            bonds.pairs.push((kind, bond.ids));
+            bonds.types.push(kind);
+            bonds.made.push((ids, bond));
             bonds.longest = bonds.longest.max(bond.size[0]);
+            bonds.breaks |= breaking::can_break(&bond.strength);
         }
         bonds.replaces_contact = setup.bonds.iter().all(|law| law.replaces_contact);
         Ok(bonds)
@@ -122,7 +98,7 @@ impl Bonds {
 
     /// Whether there is any.
     pub fn any(&self) -> bool {
-        !self.pairs.is_empty()
+        !self.made.is_empty()
     }
 
     /// How far LAMMPS must look for the other end of a bond [m].
@@ -132,7 +108,7 @@ impl Bonds {
 
     /// How many bonds and types there are, for the head of the data file.
     pub fn counts(&self) -> String {
-        format!("{} bonds\n{} bond types\n", self.pairs.len(), self.kinds.len())
+        format!("{} bonds\n{} bond types\n", self.made.len(), self.kinds.len())
     }
 
     /// Writes style and coefficients, as commands after the data are read.
@@ -144,8 +120,12 @@ impl Bonds {
             true => ("", "lj 0 1 1 coul 1 1 1"),
             false => ("overlay/pair yes ", "lj/coul 1 1 1"),
         };
-        writeln!(out, "bond_style bpm/rotational {how}smooth no break no\nspecial_bonds {pairs}")?;
-        writeln!(out, "# type, k_r k_s [N/m], k_t k_b [N·m], limits that are not reached, dashpots")?;
+        let breaks = if self.breaks { "yes" } else { "no" };
+        writeln!(out, "bond_style bpm/rotational {how}smooth no break {breaks}\nspecial_bonds {pairs}")?;
+        writeln!(
+            out,
+            "# type, k_r k_s [N/m], k_t k_b [N·m], F_n F_s [N] M_t M_b [N·m] that break it, dashpots"
+        )?;
         for (kind, numbers) in (1..).zip(&self.kinds) {
             write!(out, "bond_coeff {kind}")?;
             numbers.iter().try_for_each(|value| write!(out, " {value:?}"))?;
@@ -160,46 +140,18 @@ impl Bonds {
     /// A write that fails.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "\nBonds # number, type, both atoms\n")?;
-        for (number, (kind, [a, b])) in (1..).zip(&self.pairs) {
+        for ((number, kind), ([a, b], _)) in (1..).zip(&self.types).zip(&self.made) {
             writeln!(out, "{number} {kind} {} {}", number_of(*a), number_of(*b))?;
         }
         Ok(())
     }
 }
 
-fn found<'a>(sorted: &[&'a Particle], id: u32) -> Option<&'a Particle> {
-    sorted.binary_search_by_key(&id, |p| p.id).ok().map(|at| sorted[at])
-}
-
-/// The law that has made a bond: the first that fits, as in the engine.
-fn law<'a>(setup: &'a Setup, bond: &BondState, [a, b]: [&Particle; 2]) -> Option<&'a Bond> {
-    let clusters = [a, b].map(|p| cluster_of(&setup.clusters, p.id));
-    // The length has fewer digits than the positions.
-    let open = bond.size[0] * (1.0 - 1e-12) - a.radius - b.radius;
-    setup.bonds.iter().find(|law| law.joins([a.material, b.material], clusters, open))
-}
-
-/// Coefficients of a bond in the order of LAMMPS; `None` unless it is a beam.
-fn coefficients(setup: &Setup, law: &Bond, bond: &BondState, ends: [&Particle; 2]) -> Option<[f64; 12]> {
-    let BondKind::Beam { young, shear_modulus } = law.kind else { return None };
-    let [length, radius] = bond.size;
-    let area = PI * radius * radius;
-    let inertia = 0.25 * area * radius * radius;
-    let bending = young * inertia / length;
-    let shear = 12.0 * bending / (length * length);
-    let [along, twist] = [young * area / length, shear_modulus * 2.0 * inertia / length];
-    let mass = |p: &Particle| dem::mass(p.radius, setup.materials[p.material as usize].density);
-    let per_mass: f64 = ends.iter().map(|p| 1.0 / mass(p)).sum();
-    let per_inertia: f64 = ends.iter().map(|p| 2.5 / (mass(p) * p.radius * p.radius)).sum();
-    let arm = 0.5 * length;
-    let motions = [
-        along * per_mass,
-        shear * (per_mass + arm * arm * per_inertia),
-        bending * per_inertia,
-        twist * per_inertia,
-    ];
-    let lag = law.damping / motions.into_iter().fold(0.0, f64::max).sqrt();
-    let dashpots = [along * lag, shear * lag, 2.0 * bending * lag / length, 2.0 * twist * lag];
-    let [n, s, r, t] = dashpots;
-    Some([along, shear, twist, bending, NEVER, NEVER, NEVER, NEVER, n, s, r, t])
+/// Coefficients of a bond in the order of LAMMPS.
+fn coefficients(bond: &BondNumbers) -> [f64; 12] {
+    let [along, shear, bending, twist] = bond.stiffness;
+    let lag = bond.lag;
+    let [n, s, t, b] = breaking::limits(bond.size, bond.strength);
+    let [rolling, twisting] = [2.0 * bending * lag / bond.size[0], 2.0 * twist * lag];
+    [along, shear, twist, bending, n, s, t, b, along * lag, shear * lag, rolling, twisting]
 }

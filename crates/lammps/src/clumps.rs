@@ -14,6 +14,8 @@ use geom::Vec3;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use std::io::{self, Write};
 
+/// A turn between two frames of which the part about the line of a rod is not well known [rad].
+const FAR: f64 = 0.5;
 /// Members are on one line if none is farther from it than this share of their distance [–].
 const ON_LINE: f64 = 1e-6;
 
@@ -184,6 +186,10 @@ pub struct Tracker<'a> {
     setup: &'a Setup,
     all: Vec<Tracked>,
     time: f64,
+    /// Whether a rod was found that turns too far between two frames.
+    told: bool,
+    /// What the user should know of it.
+    pub warning: Option<String>,
 }
 
 impl<'a> Tracker<'a> {
@@ -191,7 +197,7 @@ impl<'a> Tracker<'a> {
     pub fn new(setup: &'a Setup) -> Tracker<'a> {
         let mut all: Vec<Tracked> = setup.clumps.placed.iter().map(|b| Tracked::new(setup, b)).collect();
         all.sort_by_key(|t| t.body.id);
-        Tracker { setup, all, time: 0.0 }
+        Tracker { setup, all, time: 0.0, told: false, warning: None }
     }
 
     /// At a frame, of all particles by id.
@@ -204,6 +210,15 @@ impl<'a> Tracker<'a> {
             // Members are not lost: the frame has all particles.
             let Some(members) = particles.get(first..first + tracked.arms.len()) else { continue };
             tracked.follow(setup, members, since);
+            let by = tracked.body.spin.norm() * since;
+            if tracked.seen.1.is_none() && by > FAR && !self.told {
+                self.told = true;
+                self.warning = Some(format!(
+                    "body {}, whose members are on one line, turns by {by:.1} rad between two frames at t = {} s: its angle about that line is followed from frame to frame, and is not exact: use a shorter output.every",
+                    tracked.body.id,
+                    geom::Shown(time)
+                ));
+            }
             let Tracked { body, mass, arms, .. } = &*tracked;
             states.push(ClumpState {
                 id: body.id,

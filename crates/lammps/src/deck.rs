@@ -6,12 +6,12 @@ use crate::bonds::Bonds;
 use crate::clumps;
 use crate::data;
 use crate::error::{LammpsError, Result};
-use crate::files::{BATCH, BODIES, BONDS, COLUMNS, DATA, FINISHED, FRAMES, INPUT, STATES, TOUCHES};
+use crate::files::{BATCH, BODIES, BONDS, DATA, FINISHED, FRAMES, INPUT, OF_BONDS, STATES, TOUCHES};
 use crate::head;
 use crate::law::{Target, coefficients};
 use crate::loads::Asked;
 use crate::outlet;
-use crate::refusal::{self, Refusal};
+use crate::refusal::{Allowed, Refusal};
 use crate::types::{Types, law};
 use crate::wall;
 use dem::setup::Setup;
@@ -39,8 +39,8 @@ pub struct Source<'a> {
     pub bonds: &'a Bonds,
     /// Which steps are frames.
     pub schedule: &'a Schedule,
-    /// Version, and whether the nearest is taken.
-    pub target: Target,
+    /// What was looked at, for which version.
+    pub allowed: &'a Allowed,
     /// MPI ranks.
     pub ranks: usize,
 }
@@ -69,12 +69,11 @@ impl Deck {
     /// The deck of a source.
     ///
     /// # Errors
-    /// Everything in the scene that LAMMPS cannot do.
+    /// Laws and particles that LAMMPS cannot have.
     pub fn of(from: Source) -> Result<Deck> {
-        let Source { scene, setup, arrivals, target, .. } = from;
-        let (mut refused, mut bent) = (refusal::parts(&scene.keys, setup, target), Vec::new());
-        if target.nearest { &mut bent } else { &mut refused }.extend(refusal::leavable(&scene.keys, setup));
-        refused.extend(particles(setup));
+        let Source { scene, setup, arrivals, allowed: Allowed { target, bent }, .. } = from;
+        let (target, mut bent) = (*target, bent.clone());
+        let mut refused: Vec<Refusal> = particles(setup).into_iter().collect();
         let types = Types::of(setup).unwrap_or_else(|refusal| {
             if target.nearest { &mut bent } else { &mut refused }.push(refusal);
             Types::of_means(setup)
@@ -151,6 +150,11 @@ impl Deck {
             }
         }
         Ok(None)
+    }
+
+    /// Its bonds.
+    pub fn bonds(&self) -> &Bonds {
+        &self.bonds
     }
 
     /// Whether it has rigid bodies.
@@ -291,12 +295,16 @@ fn tail(scene: &Scene, schedule: &Schedule, asked: &Asked, rigid: bool) -> Strin
     // A temperature would need more degrees of freedom than two bodies have.
     let energy = if rigid { "atoms" } else { "ke" };
     let keep = scene.keys.output.checkpoint.map_or(*last as f64 / KEPT, |s| s / dt).clamp(1.0, *last as f64);
-    let (keep, [a, b], loads) = (keep.round(), STATES, asked.commands());
+    let (keep, [a, b], loads, columns) = (keep.round(), STATES, asked.commands(), asked.of_frames());
+    let turned = match asked.has(OF_BONDS) {
+        true => "compute turned grains property/atom quatw quati quatj quatk\n",
+        false => "",
+    };
     format!(
         "\n# frames\nvariable frames index {FRAMES}\n\
          variable due equal \"round((round(step*{dt:?}/{every:?})+1)*{every:?}/{dt:?})\"\n\
          variable next equal \"(v_due<{last} || step>={last})*v_due+(v_due>={last} && step<{last})*{last}\"\n\
-         dump frames grains custom 1 ${{frames}} {COLUMNS}\n\
+         {turned}dump frames grains custom 1 ${{frames}} {columns}\n\
          dump_modify frames every v_next first ${{first}} flush yes format float %.17g\n\
          {loads}\n\
          thermo {report}\nthermo_style custom step {energy}\nthermo_modify lost error flush yes\n\

@@ -20,8 +20,10 @@ pub const ZONE: &str = "zone.dump";
 pub const PAIRS: &str = "pairs.dump";
 /// The dump of grains that touch planes, likewise.
 pub const TOUCHES: &str = "touches.dump";
+/// The dump of bonds that are whole, likewise.
+pub const OF_BONDS: &str = "bonds.dump";
 /// All dumps.
-pub const DUMPS: [&str; 4] = [FRAMES, ZONE, PAIRS, TOUCHES];
+pub const DUMPS: [&str; 5] = [FRAMES, ZONE, PAIRS, TOUCHES, OF_BONDS];
 /// What LAMMPS keeps its state in, in turn.
 pub const STATES: [&str; 2] = ["state_1", "state_2"];
 /// How a state that is whole ends, before a byte of zero.
@@ -32,3 +34,5 @@ pub const FINISHED: &str = "finished";
 pub const LOCK: &str = "lock";
 /// Columns of frames and samples.
 pub const COLUMNS: &str = "id x y z vx vy vz omegax omegay omegaz";
+/// More columns of frames of a scene with bonds: how each grain has turned.
+pub const TURNS: &str = " c_turned[1] c_turned[2] c_turned[3] c_turned[4]";

@@ -3,15 +3,18 @@
 use crate::arrivals::Arrival;
 use crate::clumps::Tracker;
 use crate::data::number_of;
+use crate::deck::Deck;
 use crate::dump::{Block, Dump, Ended, Parts};
 use crate::error::{LammpsError, Result};
-use crate::files::{COLUMNS, DUMPS, FRAMES, PAIRS, TOUCHES, ZONE};
+use crate::files::{DUMPS, FRAMES, OF_BONDS, PAIRS, TOUCHES, ZONE};
 use crate::folder;
-use crate::loads::{self, Asked, Loads, Now};
+use crate::joined::Joined;
+use crate::loads::{self, Loads, Now};
 use crate::outlet::{Found, Search};
 use crate::process::{Engine, Place, Running};
 use dem::setup::{Particle, Setup};
 use geom::{Shown, Vec3};
+use nalgebra::{Quaternion, UnitQuaternion};
 use run::{Progress, RunFile, Schedule};
 use std::collections::{BTreeMap, HashSet};
 use std::io::{BufReader, Write};
@@ -35,9 +38,13 @@ pub struct Job<'a> {
     /// Those that come in, by id.
     arrivals: &'a [Arrival],
     schedule: &'a Schedule,
-    asked: &'a Asked,
+    deck: &'a Deck,
+    /// How each particle has turned, where there are bonds.
+    turns: Vec<UnitQuaternion<f64>>,
     /// Clumps from frame to frame.
     clumps: Tracker<'a>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
     /// Step of the last frame.
     pub last: Option<u64>,
     /// How many crossed a storage plane.
@@ -51,19 +58,21 @@ impl<'a> Job<'a> {
         setup: &'a Setup,
         arrivals: &'a [Arrival],
         schedule: &'a Schedule,
-        asked: &'a Asked,
+        deck: &'a Deck,
         report: &'a mut dyn FnMut(&Progress),
     ) -> Job<'a> {
         let mut particles = setup.particles.clone();
         particles.sort_by_key(|p| p.id);
         Job {
             setup,
-            particles,
             there: Vec::new(),
             arrivals,
             schedule,
-            asked,
+            turns: vec![UnitQuaternion::identity(); particles.len()],
+            particles,
+            deck,
             clumps: Tracker::new(setup),
+            warnings: Vec::new(),
             last: None,
             crossings: 0,
             report,
@@ -97,7 +106,7 @@ impl Job<'_> {
             dumps.push((name, vec![Box::new(BufReader::with_capacity(BUFFER, pipe))]));
         }
         if let Place::Kept(start) = place {
-            for name in DUMPS.into_iter().filter(|name| self.asked.has(name)) {
+            for name in DUMPS.into_iter().filter(|name| self.deck.asked.has(name)) {
                 let parts = folder::followed(start, name, running.ended(), BUFFER);
                 let folder = || start.folder.display().to_string();
                 dumps.push((name, parts.map_err(|error| LammpsError::Folder { folder: folder(), error })?));
@@ -139,10 +148,11 @@ impl Job<'_> {
         then: impl FnOnce(&Result<Ended>),
     ) -> Result<Ended> {
         let mut dumps: BTreeMap<&str, Parts> =
-            dumps.into_iter().filter(|(name, _)| self.asked.has(name)).collect();
-        let frames = Dump::new(dumps.remove(FRAMES).unwrap_or_default(), COLUMNS);
+            dumps.into_iter().filter(|(name, _)| self.deck.asked.has(name)).collect();
+        let frames = Dump::new(dumps.remove(FRAMES).unwrap_or_default(), &self.deck.asked.of_frames());
         let zone = dumps.remove(ZONE);
-        let mut loads = Loads::new(self.asked, self.setup, [PAIRS, TOUCHES].map(|d| dumps.remove(d)));
+        let mut loads = Loads::new(&self.deck.asked, self.setup, [PAIRS, TOUCHES].map(|d| dumps.remove(d)));
+        let mut joined = Joined::new(&self.deck.bonds().made, dumps.remove(OF_BONDS));
         let found = Mutex::new(Found::default());
         let search = Search::new(self.setup, self.arrivals, self.schedule.dt);
         std::thread::scope(|scope| {
@@ -155,7 +165,7 @@ impl Job<'_> {
             };
             let searching = zone.map(|zone| scope.spawn(move || search.read(zone, add)));
             let found = outlets.then_some(&found);
-            let read = self.frames(file, (frames, &mut loads), found);
+            let read = self.frames(file, (frames, &mut loads, &mut joined), found);
             then(&read);
             if let Some(searching) = searching {
                 let _ = searching.join();
@@ -170,7 +180,7 @@ impl Job<'_> {
     fn frames<W: Write>(
         &mut self,
         file: &mut RunFile<W>,
-        (mut frames, loads): (Dump, &mut Loads),
+        (mut frames, loads, joined): (Dump, &mut Loads, &mut Joined),
         found: Option<&Mutex<Found>>,
     ) -> Result<Ended> {
         loop {
@@ -189,13 +199,23 @@ impl Job<'_> {
                 Ok(contacts) => contacts,
                 Err(ended) => return Ok(ended),
             };
+            let (bonds, cracks) = match joined.at(&now, &self.turns) {
+                Ok(both) => both,
+                Err(ended) => return Ok(ended),
+            };
             found.map_or(Ok(()), |found| self.cross(file, found))?;
+            file.cracks(time, &cracks)?;
             let bodies = self.clumps.at(time, &self.particles);
+            if let Some(warning) = self.clumps.warning.take() {
+                file.note(time, &warning)?;
+                self.warnings.push(warning);
+            }
             file.frame(time, &self.there, &bodies)?;
-            if self.asked.contacts {
+            file.bonds(time, &bonds)?;
+            if self.deck.asked.contacts {
                 file.contacts(time, &contacts)?;
             }
-            if self.asked.walls {
+            if self.deck.asked.walls {
                 file.wall_forces(time, &loads::on_walls(&contacts, self.setup, time))?;
             }
             self.tell(file.frames, frame.step);
@@ -286,6 +306,9 @@ impl Job<'_> {
             // At the start those of the scene hold: clumps may have been given a kick.
             if frame.step > 0 {
                 (p.velocity, p.spin) = (three(3), three(6));
+            }
+            if let [w, i, j, k] = values[9..] {
+                self.turns[index] = UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k));
             }
         }
         Ok(())

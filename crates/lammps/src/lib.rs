@@ -5,8 +5,8 @@
 //! ```
 //!
 //! [`inflow`] reads what inlets bring, [`arrivals`] has it come in from a [`depot`]; [`refusal`] lists what LAMMPS cannot do; [`law`] turns contact laws into coefficients of `pair_style granular` and `fix wall/gran`; [`deck`] is the text of
-//! a run, [`data`] its atoms, [`clumps`] its rigid bodies, [`bonds`] its bonds, [`files`] what they are called; [`folder`] keeps what a later start goes on from; [`process`] starts LAMMPS and keeps its last
-//! words; [`dump`] reads what it writes, [`outlet`] finds crossings in it, [`loads`] what contacts bear; [`job`] writes all of that as [`run::RunFile`].
+//! a run, [`data`] its atoms, [`clumps`] its rigid bodies, [`bonds`] its bonds, [`breaking`] when they break, [`files`] what they are called; [`folder`] keeps what a later start goes on from; [`process`] starts LAMMPS and keeps its last
+//! words; [`dump`] reads what it writes, [`outlet`] finds crossings in it, [`loads`] what contacts bear, [`joined`] what bonds do; [`job`] writes all of that as [`run::RunFile`].
 //!
 //! Sources: the documentation of LAMMPS (`pair_style granular`, `fix wall/gran`, `fix wall/gran/region`, `fix move`, `dump custom`) and its
 //! source of 29 Sep 2021 and 22 Jul 2025, against which the conversions are tested. Uses `dem` for the setup's types, `run` for the file.
@@ -14,6 +14,7 @@
 mod arrivals;
 mod batch;
 mod bonds;
+mod breaking;
 mod clumps;
 mod damping;
 mod data;
@@ -27,6 +28,7 @@ mod grain;
 mod head;
 mod inflow;
 mod job;
+mod joined;
 mod law;
 mod loads;
 mod motion;
@@ -46,6 +48,6 @@ pub use folder::{Start, open};
 pub use inflow::Inflow;
 pub use law::Target;
 pub use process::Engine;
-pub use refusal::{Refusal, refuse};
+pub use refusal::{Allowed, Refusal, allow};
 pub use simulate::{Origin, Outcome, Prepared, Settings, prepare, run, sampled};
 pub use version::Version;

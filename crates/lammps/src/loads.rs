@@ -11,7 +11,8 @@
 use crate::arrivals::{self, Arrival};
 use crate::data::{number_of, wrapped};
 use crate::dump::{Block, Dump, Ended};
-use crate::files::{PAIRS, TOUCHES, ZONE};
+use crate::files::{COLUMNS, OF_BONDS, PAIRS, TOUCHES, TURNS, ZONE};
+use crate::joined;
 use crate::types::{Types, law};
 use dem::ContactRecord;
 use dem::WallForce;
@@ -37,6 +38,7 @@ pub struct Asked {
     fixes: Vec<(usize, usize)>,
     spheres: bool,
     outlets: bool,
+    bonds: bool,
     /// Whether grains bear a force that do not touch: the necks of JKR.
     necks: bool,
 }
@@ -50,6 +52,7 @@ impl Asked {
             fixes: at_planes(setup, types).collect(),
             necks: setup.contacts.iter().any(|law| law.model("law") == Some("jkr")),
             outlets: !setup.outlets.is_empty(),
+            bonds: !setup.bonds.is_empty(),
             spheres: setup.walls.iter().any(|w| matches!(w.shape, WallShape::Spheres(_))),
         }
     }
@@ -60,8 +63,14 @@ impl Asked {
             ZONE => self.outlets,
             PAIRS => self.pairs(),
             TOUCHES => self.touches(),
+            OF_BONDS => self.bonds,
             _ => true,
         }
+    }
+
+    /// Columns of frames.
+    pub fn of_frames(&self) -> String {
+        format!("{COLUMNS}{}", if self.bonds { TURNS } else { "" })
     }
 
     /// Whether pairs are dumped.
@@ -93,6 +102,9 @@ impl Asked {
                  compute loads all pair/local fx fy fz p1 p2 p3 cutoff {reach}\nvariable pairs index {PAIRS}\n\
                  dump pairs all local 1 ${{pairs}} {OF_PAIRS}\ndump_modify pairs {how}\n"
             );
+        }
+        if self.bonds {
+            text += &joined::commands(how);
         }
         if self.touches() {
             let flags: Vec<String> =
@@ -175,21 +187,10 @@ impl<'a> Loads<'a> {
     /// A dump that ends, or is wrong.
     pub fn at(&mut self, now: &Now) -> Result<Vec<ContactRecord>, Ended> {
         let mut all = Vec::new();
-        let block = |dump: &mut Option<Dump>| match dump.as_mut().map(Dump::next_block) {
-            None => Ok(None),
-            Some(Ok(block)) if block.step == now.step => Ok(Some(block)),
-            Some(Ok(block)) => Err(Ended::Wrong(format!(
-                "contacts of step {} follow the frame of step {}",
-                block.step, now.step
-            ))),
-            // The frame is there, and what belongs to it is not.
-            Some(Err(Ended::Over)) => Err(Ended::Torn),
-            Some(Err(ended)) => Err(ended),
-        };
-        if let Some(pairs) = block(&mut self.pairs)? {
+        if let Some(pairs) = block(&mut self.pairs, now.step)? {
             self.pairs(&pairs, now, &mut all)?;
         }
-        if let Some(touches) = block(&mut self.touches)? {
+        if let Some(touches) = block(&mut self.touches, now.step)? {
             self.touches(&touches, now, &mut all)?;
         }
         Ok(all)
@@ -270,6 +271,24 @@ impl<'a> Loads<'a> {
             }
         }
         Ok(())
+    }
+}
+
+/// What a dump has of the step of a frame, if there is one.
+///
+/// # Errors
+/// A dump that ends, or is wrong.
+pub fn block(dump: &mut Option<Dump>, step: u64) -> Result<Option<Block>, Ended> {
+    match dump.as_mut().map(Dump::next_block) {
+        None => Ok(None),
+        Some(Ok(block)) if block.step == step => Ok(Some(block)),
+        Some(Ok(block)) => Err(Ended::Wrong(format!(
+            "contacts or bonds of step {} follow the frame of step {step}",
+            block.step
+        ))),
+        // The frame is there, and what belongs to it is not.
+        Some(Err(Ended::Over)) => Err(Ended::Torn),
+        Some(Err(ended)) => Err(ended),
     }
 }
 

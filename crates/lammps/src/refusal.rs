@@ -1,6 +1,7 @@
 //! What of a scene LAMMPS cannot do, by name, with the nearest that it can.
 
 use crate::bonds;
+use crate::breaking;
 use crate::clumps;
 use crate::error::{LammpsError, Result};
 use crate::law::Target;
@@ -42,20 +43,31 @@ fn all_of(cases: impl IntoIterator<Item = Case>) -> Vec<Refusal> {
     held.map(|(_, what, why, nearest)| Refusal::new(what, why, nearest)).collect()
 }
 
-/// Refuses what can be refused before inlets are read, which may take as long as the stage upstream runs.
+/// A scene whose laws and particles are left to look at.
+#[derive(Debug, Clone)]
+pub struct Allowed {
+    /// Version, and whether the nearest is taken.
+    pub target: Target,
+    /// What the nearest is taken for.
+    pub(crate) bent: Vec<Refusal>,
+}
+
+/// Refuses everything apart from laws and particles, before inlets are read: that may take as long as the stage upstream runs.
 ///
 /// # Errors
 /// What LAMMPS cannot do.
-pub fn refuse(scene: &Scene, plan: &Plan, target: Target) -> Result<()> {
+pub fn allow(scene: &Scene, plan: &Plan, target: Target) -> Result<Allowed> {
     let mut refused = parts(&scene.keys, &plan.setup, target);
+    let mut bent = leavable(&scene.keys, &plan.setup);
+    bent.extend(breaking::bendable(&plan.setup));
     if !target.nearest {
-        refused.extend(leavable(&scene.keys, &plan.setup));
+        refused.append(&mut bent);
     }
-    if refused.is_empty() { Ok(()) } else { Err(LammpsError::Cannot(refused)) }
+    if refused.is_empty() { Ok(Allowed { target, bent }) } else { Err(LammpsError::Cannot(refused)) }
 }
 
 /// Everything in a scene apart from laws and particles that LAMMPS does not have.
-pub fn parts(keys: &SceneKeys, setup: &Setup, target: Target) -> Vec<Refusal> {
+fn parts(keys: &SceneKeys, setup: &Setup, target: Target) -> Vec<Refusal> {
     let mut all = scene(keys, setup);
     all.extend(walls(setup));
     all.extend(outlet::refused(setup));
@@ -93,7 +105,7 @@ fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
 }
 
 /// Keys that LAMMPS has nothing for, and whose absence leaves the motion of the grains nearly as it is.
-pub fn leavable(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
+fn leavable(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
     let ledger = "LAMMPS keeps no energy ledger";
     all_of([
         (keys.sleep.is_some(), "sleep", "particles of LAMMPS do not sleep", "leave it out"),

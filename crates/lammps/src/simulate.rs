@@ -1,7 +1,7 @@
 //! A run on LAMMPS, written as it comes.
 
 use crate::arrivals::{self, Arrival};
-use crate::bonds::{self, Bonds};
+use crate::bonds::Bonds;
 use crate::clumps;
 use crate::deck::{Deck, Source};
 use crate::dump::Parts;
@@ -10,9 +10,8 @@ use crate::files::{DUMPS, FRAMES};
 use crate::folder::{self, Start};
 use crate::inflow::Inflow;
 use crate::job::Job;
-use crate::law::Target;
 use crate::process::{Engine, Place};
-use crate::refusal::{self, Refusal};
+use crate::refusal::{self, Allowed, Refusal};
 use dem::setup::Setup;
 use run::{Progress, RunError, RunFile, Schedule};
 use scene::keys::Sampling;
@@ -55,6 +54,8 @@ pub struct Outcome {
     pub frames: u64,
     /// Particles.
     pub particles: usize,
+    /// What the user should know.
+    pub warnings: Vec<String>,
     /// Particles that crossed a storage plane.
     pub crossings: u64,
 }
@@ -113,15 +114,15 @@ impl Prepared {
     }
 }
 
-/// Makes a scene ready, whose inlets bring `inflow`.
+/// Makes a scene ready that is allowed, whose inlets bring `inflow`.
 ///
 /// # Errors
-/// What LAMMPS cannot do, what the engine refuses.
+/// Laws and particles that LAMMPS cannot have, what the engine refuses.
 pub fn prepare(
     scene: &Scene,
     plan: &Plan,
     inflow: &Inflow,
-    target: Target,
+    allowed: &Allowed,
     ranks: usize,
 ) -> Result<Prepared> {
     run::ready(scene, plan, None)?;
@@ -130,15 +131,14 @@ pub fn prepare(
     let mut setup = plan.setup.clone();
     clumps::add_members(&mut setup);
     let arrivals = arrivals::add(&mut setup, plan, inflow, &schedule)?;
-    let refused = !bonds::refused(&plan.setup, target).is_empty();
-    let bonds = if refused { Bonds::default() } else { Bonds::of(&plan.setup, &scene.text.name)? };
+    let bonds = Bonds::of(&plan.setup)?;
     let source = Source {
         scene,
         setup: &setup,
         arrivals: &arrivals,
         bonds: &bonds,
         schedule: &schedule,
-        target,
+        allowed,
         ranks,
     };
     let notes = inflow.warnings(schedule.end(), refusal::has_springs(&setup));
@@ -162,7 +162,7 @@ pub fn run<W: Write>(
     let mut file = RunFile::begin(scene, plan, schedule, out, &settings.provenance, settings.how)?;
     file.note(0.0, "computed by LAMMPS; forces are sampled at instants, and the file has no checkpoint")?;
     prepared.warnings().iter().try_for_each(|warning| file.note(0.0, warning))?;
-    let mut job = Job::new(setup, arrivals, schedule, &prepared.deck.asked, report);
+    let mut job = Job::new(setup, arrivals, schedule, &prepared.deck, report);
     let reason = match origin {
         Origin::Dumps(dumps) => {
             let ended = job.read(&mut file, dumps)?;
@@ -196,6 +196,7 @@ pub fn run<W: Write>(
         steps: step,
         frames: file.frames,
         particles: job.there.len(),
+        warnings: job.warnings,
         crossings: job.crossings,
     };
     Ok((outcome, file.finish()?))

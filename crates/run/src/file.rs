@@ -5,7 +5,7 @@ use crate::frames::{self, ParticleRows, WallHead};
 use crate::schedule::Schedule;
 use crate::start::{Head, in_file};
 use dem::setup::{Crossing, Particle, Wall, WallShape};
-use dem::{ClumpState, ContactRecord, WallForce};
+use dem::{BondState, ClumpState, ContactRecord, Crack, WallForce};
 use geom::Vec3;
 use record::{FRAME, LogMessage, Watermark, json, nanoseconds, topic};
 use scene::keys::Precision;
@@ -111,6 +111,31 @@ impl<W: Write> RunFile<W> {
         let table = frames::contacts(contacts, self.precision);
         self.writer.points(topic::CONTACTS, nanoseconds(time), FRAME, table)?;
         Ok(self.writer.flush_chunk()?)
+    }
+
+    /// Writes the bonds of the last frame, if there are any.
+    ///
+    /// # Errors
+    /// A write that fails.
+    pub fn bonds(&mut self, time: f64, bonds: &[BondState]) -> Result<()> {
+        if bonds.is_empty() {
+            return Ok(());
+        }
+        let table = frames::bonds(bonds, self.precision);
+        self.writer.points(topic::BONDS, nanoseconds(time), FRAME, table)?;
+        Ok(self.writer.flush_chunk()?)
+    }
+
+    /// Writes bonds that broke, if any did, before the frame that shows it.
+    ///
+    /// # Errors
+    /// A write that fails.
+    pub fn cracks(&mut self, time: f64, cracks: &[Crack]) -> Result<()> {
+        if cracks.is_empty() {
+            return Ok(());
+        }
+        let table = frames::cracks(cracks, self.precision);
+        Ok(self.writer.points(topic::CRACKS, nanoseconds(time), FRAME, table)?)
     }
 
     /// Writes the forces on walls at the last frame.

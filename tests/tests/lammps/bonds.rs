@@ -1,14 +1,15 @@
 //! Bonds of beams on both engines, where LAMMPS has the package BPM: two grains that stretch, shear, bend and twist their bond, and a beam of grains.
 
 use crate::refusal;
-use grainpipe_tests::engines::{R, S, both_with, column, frames};
+use grainpipe_tests::engines::{R, S, both_with, column, frames, frames_of};
 use grainpipe_tests::scenes::{folder, write};
 use grainpipe_tests::tools::succeed;
 use std::process::Command;
 use stream::Table;
+use tempfile::TempDir;
 
 /// A LAMMPS that has bonds: `GRAINPIPE_LMP_BPM`, or `lmp`; where it has none, the test is counted as skipped.
-fn bpm() -> Option<String> {
+pub fn bpm() -> Option<String> {
     let named = std::env::var("GRAINPIPE_LMP_BPM").unwrap_or_else(|_| "lmp".into());
     let done = Command::new(&named).arg("-h").output();
     let found = done.is_ok_and(|done| String::from_utf8_lossy(&done.stdout).contains("bpm/rotational"));
@@ -18,7 +19,7 @@ fn bpm() -> Option<String> {
     found.then_some(named)
 }
 
-fn scene(time: f64, steps: f64, bond: &str) -> String {
+pub fn scene(time: f64, steps: f64, bond: &str) -> String {
     let (dt, every) = (time / steps, time / 50.0);
     format!(
         "gravity = [0, 0, 0]\n[time]\nuntil = {time:?}\ndt = {dt:?}\n[output]\nevery = {every:?}\n[[material]]\nname = \"glass\"\n\
@@ -28,8 +29,8 @@ fn scene(time: f64, steps: f64, bond: &str) -> String {
     )
 }
 
-/// Two grains of two sizes along a skew line, with these velocities and spins of the first one; largest difference of velocities over the largest velocity.
-fn pair(lmp: &str, v: [f64; 3], w: [f64; 3], bond: &str) -> f64 {
+/// A folder with two grains of two sizes along a skew line, with these velocities and spins of the first one.
+pub fn two_grains(v: [f64; 3], w: [f64; 3], bond: &str) -> TempDir {
     let reach = R + S + 5e-4;
     let [x, y, z] = [2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0].map(|part| part * reach);
     let rows = [
@@ -38,15 +39,32 @@ fn pair(lmp: &str, v: [f64; 3], w: [f64; 3], bond: &str) -> f64 {
     ];
     let lines: String = rows.iter().map(|r| r.map(|v| format!("{v:?}")).join(",") + "\n").collect();
     let head = "x,y,z,radius,vx,vy,vz,wx,wy,wz\n".to_owned();
-    let folder = folder(&[("s.toml", scene(2e-3, 2e5, bond)), ("grains.csv", head + &lines)]);
-    let [ours, theirs] = both_with(folder.path(), lmp, &[]);
+    folder(&[("s.toml", scene(2e-3, 2e5, bond)), ("grains.csv", head + &lines)])
+}
+
+/// Largest difference of velocities over the largest velocity.
+pub fn difference([ours, theirs]: &[Vec<Table>; 2]) -> f64 {
     let (mut worst, mut largest) = (0.0f64, 0.0f64);
-    for (a, b) in ours.iter().zip(&theirs) {
+    for (a, b) in ours.iter().zip(theirs) {
         for (name, arm) in [("vx", 1.0), ("vy", 1.0), ("vz", 1.0), ("wx", R), ("wy", R), ("wz", R)] {
             for (p, q) in column(a, name).into_iter().zip(column(b, name)) {
                 worst = worst.max((p - q).abs() * arm);
                 largest = largest.max(p.abs() * arm);
             }
+        }
+    }
+    worst / largest
+}
+
+/// Largest difference of columns of a topic over the largest value of any of them.
+pub fn off_by([ours, theirs]: &[Vec<Table>; 2], names: &[&str]) -> f64 {
+    assert_eq!(ours.len(), theirs.len());
+    let (mut worst, mut largest) = (0.0f64, f64::MIN_POSITIVE);
+    for (name, (a, b)) in names.iter().flat_map(|name| ours.iter().zip(theirs).map(move |of| (name, of))) {
+        let [a, b] = [a, b].map(|t| t.get(name).unwrap_or_else(|| panic!("no column {name}")).to_f64());
+        assert_eq!(a.len(), b.len(), "{name}");
+        for (p, q) in a.into_iter().zip(b).filter(|(p, _)| p.is_finite()) {
+            (worst, largest) = (worst.max((p - q).abs()), largest.max(p.abs()));
         }
     }
     worst / largest
@@ -73,7 +91,7 @@ fn small_motions_of_a_bond_agree() {
         ("twisting, damped", still, axis, damped),
         ("beside a contact", across, axis, ""),
     ] {
-        let off = pair(&lmp, v, w, bond);
+        let off = difference(&both_with(two_grains(v, w, bond).path(), &lmp, &[]));
         println!("{what}: {off:.1e}");
         assert!(off < 3e-4, "{what}: {off:e}");
     }
@@ -106,6 +124,20 @@ fn a_bar_swings_as_in_dem_run_and_goes_on_from_a_state() {
     let off = worst(&ours, &theirs, "y") / swing;
     println!("a bar swings by {swing:.1e} m: {off:.1e} of it");
     assert!(swing > 1e-5 && off < 1e-4, "{off:e}");
+    let bonds = ["ours.mcap", "theirs.mcap"].map(|run| frames_of(&path.join(run), "/bonds"));
+    for (names, most) in [
+        (&["fx", "fy", "fz"][..], 1e-4),
+        (&["mx_i", "my_i", "mz_i", "mx_j", "my_j", "mz_j"], 1e-4),
+        (&["tension", "shear"], 1e-4),
+        (&["x", "y", "z"], 1e-9),
+    ] {
+        let off = off_by(&bonds, names);
+        println!("bonds, {}: {off:.1e} of the largest", names[0]);
+        assert!(off < most, "{names:?}: {off:e}");
+    }
+    for name in ["id_i", "id_j", "broken", "mode"] {
+        assert!(off_by(&bonds, &[name]) == 0.0, "{name}");
+    }
     succeed(path, "dem-lammps", &["s.toml", "--write-deck", "deck", "--lmp", &lmp, "-q"]);
     let lammps = |options: &[&str]| {
         let mut lammps = Command::new(&lmp);
@@ -114,7 +146,7 @@ fn a_bar_swings_as_in_dem_run_and_goes_on_from_a_state() {
         assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stdout));
     };
     lammps(&[]);
-    lammps(&["-var", "state", "state_1", "-var", "frames", "frames-2.dump"]);
+    lammps(&["-var", "state", "state_1", "-var", "frames", "frames-2.dump", "-var", "bonds", "bonds-2.dump"]);
     let read = [
         "s.toml",
         "--read-dump",
@@ -143,7 +175,8 @@ fn other_bonds_are_refused_by_name() {
     let said = refusal(folder.path(), &[]);
     assert!(said.contains("bond: LAMMPS of 29 Sep 2021") && said.contains("BPM"), "{said}");
     for (bond, words) in [
-        ("tensile_strength = 1e6", "strength of bond.0"),
+        ("tensile_strength = 1e6", "tensile strength of bond.0: LAMMPS adds"),
+        ("tensile_strength = 1e6\nshear_strength = 1e6", "under pressure later"),
         ("at = 1e-4", "bond.0.at"),
         ("[[outlet]]\nplane = \"0,0,1,0,0,1\"", "bonds through a cut"),
     ] {

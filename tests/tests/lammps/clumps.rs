@@ -3,7 +3,7 @@
 use crate::{lmp, refusal};
 use grainpipe_tests::engines::{both, column, frames_of};
 use grainpipe_tests::scenes::{folder, write};
-use grainpipe_tests::tools::succeed;
+use grainpipe_tests::tools::{succeed, tool};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -89,6 +89,13 @@ fn clumps_in_flight_are_where_they_are_in_dem_run() {
     assert!(x < 1e-13 && v < 1e-12 && w < 1e-6 && stone < 1e-7);
     // Members of a rod do not show its turn about its axis, which is integrated from frame to frame.
     assert!(rod < 1e-3);
+    let slow = ["s.toml", "--set", "output.every=0.01", "-o", "slow.mcap"];
+    let said = tool(folder.path(), "dem-lammps", &slow).stderr;
+    assert!(
+        said.contains("body 4, whose members are on one line, turns by 0.9 rad")
+            && said.matches("one line").count() == 1,
+        "{said}"
+    );
     for name in ["mass", "scale", "members", "clump"] {
         assert!(worst(&[name]) == 0.0, "{name}");
     }

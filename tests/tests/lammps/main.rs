@@ -3,6 +3,7 @@
 //! What needs LAMMPS is skipped visibly where `lmp` is missing; scripts play its faults.
 
 mod bonds;
+mod breaking;
 mod clumps;
 mod contacts;
 mod decks;

@@ -34,13 +34,12 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
     plan.warnings.iter().for_each(|note| cli::warn(note));
     let engine = engine(&args);
     let version = version(&args, &engine, &plan)?;
-    lammps::refuse(&scene, &plan, Target { version, nearest: args.nearest })
-        .with_context(|| args.scene.to_string())?;
+    let target = Target { version, nearest: args.nearest };
+    let allowed = lammps::allow(&scene, &plan, target).with_context(|| args.scene.to_string())?;
     let inflow = Inflow::read(&mut plan, scene.keys.time.until.unwrap_or(0.0))?;
-    let prepare =
-        |nearest: bool| lammps::prepare(&scene, &plan, &inflow, Target { version, nearest }, engine.ranks);
-    let prepared = prepare(args.nearest).with_context(|| args.scene.to_string())?;
-    if args.nearest && prepare(false).is_ok() {
+    let prepared = lammps::prepare(&scene, &plan, &inflow, &allowed, engine.ranks)
+        .with_context(|| args.scene.to_string())?;
+    if args.nearest && prepared.deck.bent.is_empty() {
         cli::warn("--nearest changes nothing: LAMMPS has all that the scene asks for");
     }
     prepared.warnings().iter().for_each(|note| cli::warn(note));
@@ -187,6 +186,7 @@ fn simulate(
     let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
     drop(bar);
     let outcome = done.map_err(|e| kept::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
+    outcome.warnings.iter().for_each(|warning| cli::warn(warning));
     let summary = format!(
         "{} steps of {:.3e} s to {:.4} s on LAMMPS, {} particles, {} frames",
         outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames

@@ -5,7 +5,7 @@ use crate::model::bonds::NewBond;
 use crate::model::bonds::kinds::{End, numbers};
 use crate::model::quantity::material_names;
 use crate::setup::bond::cluster_of;
-use crate::setup::{Bond, Particle, Setup};
+use crate::setup::{Bond, BondNumbers, Particle, Setup};
 use crate::space::cell::Cell;
 use crate::space::search::{Search, pairs};
 use geom::Vec3;
@@ -60,6 +60,19 @@ pub fn bonded_pairs(setup: &Setup) -> Result<Vec<NewBond>, SetupError> {
         }),
         None => Ok(found.pairs),
     }
+}
+
+/// All bonds at t = 0, by the ids of their particles, the lower first; the section's `share` and `axis` are those of the first.
+///
+/// # Errors
+/// Two centres at one position; a law for which there is no pair.
+pub fn bonds_at_start(setup: &Setup) -> Result<Vec<([u32; 2], BondNumbers)>, SetupError> {
+    let mut ids: Vec<u32> = setup.particles.iter().map(|p| p.id).collect();
+    ids.sort_unstable();
+    let of = |bond: NewBond| (bond.ends.map(|row| ids[row as usize]), bond.numbers);
+    let mut all: Vec<_> = bonded_pairs(setup)?.into_iter().map(of).collect();
+    all.sort_unstable_by_key(|(ids, _)| *ids);
+    Ok(all)
 }
 
 /// Bonds that laws make.

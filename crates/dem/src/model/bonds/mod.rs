@@ -1,6 +1,6 @@
 //! Bonds of a setup: which particles they join, the springs and the strength of each, their stable step.
 //!
-//! `find` looks for pairs, `kinds` makes the numbers of each, `strength` draws what breaks it, `springs` keeps them, `law` has what all kinds do, `limit` the step
+//! `find` looks for pairs, `kinds` makes the numbers of each, `strength` draws what breaks it, `springs` keeps them, `law` has what all kinds do, `now` what one does, `limit` the step
 //! (by the `motions` that springs resist).
 
 pub mod find;
@@ -8,6 +8,7 @@ pub mod kinds;
 pub mod law;
 pub mod limit;
 mod motions;
+pub mod now;
 pub mod springs;
 mod strength;
 
