@@ -125,11 +125,12 @@ fn a_bar_swings_as_in_dem_run_and_goes_on_from_a_state() {
     println!("a bar swings by {swing:.1e} m: {off:.1e} of it");
     assert!(swing > 1e-5 && off < 1e-4, "{off:e}");
     let bonds = ["ours.mcap", "theirs.mcap"].map(|run| frames_of(&path.join(run), "/bonds"));
+    // Both dashpots differ in the fast motions of the first frames.
     for (names, most) in [
-        (&["fx", "fy", "fz"][..], 1e-4),
-        (&["mx_i", "my_i", "mz_i", "mx_j", "my_j", "mz_j"], 1e-4),
-        (&["tension", "shear"], 1e-4),
-        (&["x", "y", "z"], 1e-9),
+        (&["fx", "fy", "fz"][..], 2e-2),
+        (&["mx_i", "my_i", "mz_i", "mx_j", "my_j", "mz_j"], 3e-3),
+        (&["tension", "shear"], 3e-3),
+        (&["x", "y", "z"], 1e-8),
     ] {
         let off = off_by(&bonds, names);
         println!("bonds, {}: {off:.1e} of the largest", names[0]);
