@@ -133,7 +133,7 @@ fn steps_fit_parts_of_a_curve_and_hold_what_was_found() {
     // Late points give a and c, early points then b.
     let steps = "[[step]]\nname = \"late\"\nfit = [\"a\", \"c\"]\nto = [{ test = \"shear\", from = 3 }]\ntrials = 24\nfirst = 16\n\
         [[step]]\nname = \"early\"\nfit = \"b\"\nto = [{ test = \"shear\", until = 1 }]\ntrials = 16\nfirst = 10\n";
-    let toml = curve_recipe("trials = 30")
+    let toml = curve_recipe("")
         .replace("{nothing}", "0")
         .replace("[[parameter]]\nname = \"nothing\"\nbounds = [0, 1]\n", "");
     let (judged, _) = found(folder.path(), &(toml + steps), &[&data]).unwrap();
@@ -231,6 +231,14 @@ fn large_specimens_refine_small_ones_and_a_step_runs_its_own_tests() {
     // Small specimens that mislead: a is 3 + 20/4 there, which the large ones correct.
     let judged = run(&specimens(20.0, "refines = \"small\"\n"));
     for (f, truth) in judged.findings.iter().zip([3.5, 2.0]) {
+        assert!((f.value - truth).abs() < 0.1 * truth && f.low < truth && truth < f.high, "{f:?}");
+    }
+    // Small specimens that all give the same.
+    let all = "{a} + k * {b} - 0.5 / {size} + 4 * (rand() - 0.5) / {size}";
+    let same = specimens(0.5, "refines = \"small\"\n")
+        .replace(all, "({size} < 9 ? 1 : {a} + k * {b} + 0.1 * (rand() - 0.5))");
+    let judged = run(&format!("[settings]\nabandon = 0\n{same}"));
+    for (f, truth) in judged.findings.iter().zip([3.0, 2.0]) {
         assert!((f.value - truth).abs() < 0.1 * truth && f.low < truth && truth < f.high, "{f:?}");
     }
     // Large specimens that tell nothing of b: what small ones tell of it is no finding of the second step.

@@ -262,6 +262,7 @@ impl Lab {
         let tables = chain.tables(&self.recipe.tables(&of, &prepared))?;
         let curve = self.recipe.curve(&of, &prepared, &tables)?;
         let values = self.recipe.values(&of, &curve);
+        warnings.extend(self.recipe.warnings(&of, &curve));
         Ok(Outcome::Tested { curve, values, warnings })
     }
 

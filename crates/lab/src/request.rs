@@ -1,7 +1,8 @@
 //! What the user asks for, and what follows from it for a specimen: its size, amount, and how fast it is sheared.
 
 use crate::error::{LabError, Result};
-use crate::sample::{Grains, Sample};
+use crate::grains::Grains;
+use crate::sample::Sample;
 use geom::Vec3;
 
 /// What the user asks for.
@@ -39,6 +40,8 @@ pub(crate) const SLOW: f64 = 1e-3;
 const BAND: f64 = 10.0;
 /// Way of a plate in one time step over the grain diameter, where no stress sets the rate [–].
 const WAY: f64 = 4e-5;
+/// Passes of a wave through a specimen of bonded grains while it is loaded up to its strength.
+const PASSES: f64 = 20.0;
 
 /// The space of a specimen: an upright box, or the cylinder in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -151,9 +154,10 @@ impl Request {
         self.speed.unwrap_or_else(|| self.rate(grains, pressure) * length.min(BAND * grains.diameter))
     }
 
-    /// Speed of a plate [m/s] where no stress sets the rate.
+    /// Speed of a plate [m/s] where no stress sets the rate: so slow that waves pass many times before bonds break.
     pub(crate) fn speed_of_plate(&self, grains: &Grains) -> f64 {
-        self.speed.unwrap_or(WAY * grains.diameter / grains.step)
+        let fast = WAY * grains.diameter / grains.step;
+        self.speed.unwrap_or(grains.breaking.map_or(fast, |breaking| fast.min(breaking / PASSES)))
     }
 
     /// Speed limit of a servo that presses on the specimen [m/s].

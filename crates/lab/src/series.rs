@@ -3,6 +3,9 @@
 use crate::error::{LabError, Result};
 use std::path::Path;
 
+/// Share of the end of a curve that is its residual [–].
+const RESIDUAL: f64 = 0.2;
+
 /// A column of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
@@ -114,6 +117,18 @@ pub(crate) fn reaches(values: &[f64], level: f64) -> Option<(usize, f64)> {
 /// The value there.
 pub(crate) fn at(values: &[f64], (row, share): (usize, f64)) -> f64 {
     values[row - 1] + share * (values[row] - values[row - 1])
+}
+
+/// A smooth curve: means over a fortieth of its rows.
+pub(crate) fn smoothed(values: &[f64]) -> Vec<f64> {
+    if values.is_empty() { Vec::new() } else { smooth(values, (values.len() / 40).max(1)) }
+}
+
+/// Mean over the last fifth of the rows; NaN of none.
+pub(crate) fn residual(values: &[f64]) -> f64 {
+    let from = values.len() - (RESIDUAL * values.len() as f64).ceil() as usize;
+    let last = &values[from..];
+    last.iter().sum::<f64>() / last.len() as f64
 }
 
 #[cfg(test)]

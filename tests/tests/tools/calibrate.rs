@@ -122,6 +122,52 @@ fn the_trials_so_far_are_judged_and_nothing_is_run() {
     assert_eq!(read(path, "end.csv"), read(path, "all.csv"));
 }
 
+/// Trials that are not those of the recipe as it is now: bounds, held values, commands, failures.
+#[test]
+fn what_trials_so_far_cannot_tell_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let recipe = |bounds: &str, value: f64, awk: &str| {
+        let text = format!(
+            "[settings]\ntrials = 16\nfirst = 12\n[[parameter]]\nname = \"a\"\nbounds = {bounds}\n[[parameter]]\nname = \"b\"\nbounds = [0, 10]\n\
+             [[test]]\nname = \"one\"\ncommand = \"awk 'BEGIN {{ print {{a}} + {{seed}} * 1e-9 }}'\"\nvalue = {value}\ndeviation = 0.1\n\
+             [[test]]\nname = \"sum\"\ncommand = \"awk 'BEGIN {{ print {awk} }}'\"\nvalue = 7\ndeviation = 0.1\n\
+             [[step]]\nname = \"A\"\nfit = \"a\"\nto = [\"one\"]\n[[step]]\nname = \"B\"\nfit = \"b\"\nto = [\"sum\"]\n"
+        );
+        fs::write(path.join("r.toml"), text).unwrap();
+    };
+    let so_far = |more: &[&str]| {
+        let done = tool(path, "calibrate", &[&["r.toml", "--so-far", "--dir", "t"], more].concat());
+        (done.code, done.stderr)
+    };
+    recipe("[0, 10]", 3.0, "{a} + {b}");
+    succeed(path, "calibrate", &["r.toml", "-q", "--dir", "t", "-o", "x.csv"]);
+    let (code, said) = so_far(&[]);
+    assert!(code == 0 && !said.contains("warning"), "{said}");
+    // Bounds that leave the best trials out: the interval is inside of them.
+    recipe("[4, 10]", 3.0, "{a} + {b}");
+    let (code, said) = so_far(&["-o", "y.csv"]);
+    let low: f64 = read(path, "y.csv").lines().nth(1).unwrap().split(',').nth(3).unwrap().parse().unwrap();
+    assert!(code == 0 && low >= 4.0, "{low} {said}");
+    // Other data: the second step's trials hold what the first one found then.
+    recipe("[0, 10]", 5.0, "{a} + {b}");
+    let (_, said) = so_far(&[]);
+    assert!(said.contains("step 'B': its trials hold a = 3") && said.contains("step 'A' finds"), "{said}");
+    // Another command.
+    recipe("[0, 10]", 3.0, "{b} + {a}");
+    let (_, said) = so_far(&[]);
+    assert!(
+        said.contains("of another command, seed, or version") && said.contains("step 'B' has 0 trials"),
+        "{said}"
+    );
+    let (code, said) = so_far(&["--seed", "7"]);
+    assert!(code == 1 && said.contains("trials that are left out"), "{said}");
+    // Data in another unit.
+    recipe("[0, 10]", 3000.0, "{a} + {b}");
+    let (code, said) = so_far(&[]);
+    assert!(code == 1 && said.contains("are the units the same?"), "{said}");
+}
+
 #[test]
 fn errors_end_with_the_right_code() {
     let folder = inputs();

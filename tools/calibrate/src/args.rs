@@ -25,7 +25,7 @@ pub struct Args {
     /// Runs at the same time [default: all cores]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// Judge the trials that are in the folder so far, whoever proposed them; nothing is run
+    /// Judge the trials that are in the folder so far; nothing is run
     #[arg(long, conflicts_with_all = ["jobs", "jobs_file", "run", "guess"])]
     pub so_far: bool,
     /// Write the open runs of the next batch, a command each line, and end

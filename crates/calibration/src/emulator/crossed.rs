@@ -1,7 +1,12 @@
 //! How far each trial is from what the others say of it, where there are few.
 
-use super::gp::{Gp, Scatter};
+use super::gp::Gp;
+use super::likelihood::Scatter;
+use geom::random::{generator, unit};
 use nalgebra::{DMatrix, DVector};
+
+/// Stream of the order.
+const STREAM: u64 = 0x666f_6c64;
 
 /// Parts that are left out in turn.
 const FOLDS: usize = 10;
@@ -20,11 +25,13 @@ pub(crate) fn crossed(
     let n = inputs.nrows();
     let mut off = vec![0.0; n];
     let least = LEAST * y.variance();
+    let order = shuffled(n);
     for fold in 0..FOLDS.min(n) {
-        let rest: Vec<usize> = (0..n).filter(|i| i % FOLDS != fold).collect();
+        let is_out = |at: &usize| at % FOLDS == fold;
+        let rest: Vec<usize> = (0..n).filter(|at| !is_out(at)).map(|at| order[at]).collect();
         let (some, some_y) = (inputs.select_rows(&rest), y.select_rows(&rest));
-        let gp = Gp::fit_with(&some, &some_y, (scatter, None), whole.trend)?;
-        for i in (fold..n).step_by(FOLDS) {
+        let gp = Gp::fit(&some, &some_y, (scatter, None), whole.trend)?;
+        for i in (0..n).filter(is_out).map(|at| order[at]) {
             let p = gp.predict(&inputs.row(i).iter().copied().collect::<Vec<_>>());
             off[i] = (y[i] - p.mean) / (p.variance + gp.noise).max(least).sqrt();
         }
@@ -32,10 +39,20 @@ pub(crate) fn crossed(
     Some(off)
 }
 
+/// Indices below `n` in an order of chance, always the same: in the order of even points each tenth one lies in a part of the space.
+fn shuffled(n: usize) -> Vec<usize> {
+    let mut random = generator(STREAM, n as u64, 0);
+    let mut order: Vec<usize> = (0..n).collect();
+    for k in (1..n).rev() {
+        order.swap(k, (unit(&mut random) * (k + 1) as f64) as usize);
+    }
+    order
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::trend::Trend;
     use super::*;
-    use geom::random::{generator, unit};
 
     /// One trial alone differs from all others: the emulator becomes uncertain, not useless.
     #[test]
@@ -43,7 +60,9 @@ mod tests {
         let mut random = generator(3, 1, 0);
         let x = DMatrix::from_fn(12, 3, |_, _| unit(&mut random));
         let y = DVector::from_fn(12, |i, _| if i == 7 { 1.0 } else { 0.0 });
-        let off = crossed(&Gp::fit(&x, &y, (Scatter::None, None)).unwrap(), &x, &y, Scatter::None).unwrap();
+        let off =
+            crossed(&Gp::fit(&x, &y, (Scatter::None, None), Trend::Linear).unwrap(), &x, &y, Scatter::None)
+                .unwrap();
         assert!(off.iter().all(|o| o.abs() < 1e3) && off[7].abs() > 2.0, "{off:?}");
     }
 
@@ -57,7 +76,7 @@ mod tests {
             let x = DMatrix::from_fn(12, 3, |_, _| unit(&mut random));
             let at = |x: &DMatrix<f64>, i: usize| [x[(i, 0)], x[(i, 1)], x[(i, 2)]];
             let y = DVector::from_fn(12, |i, _| f(&at(&x, i)));
-            let gp = Gp::fit(&x, &y, (Scatter::None, None)).unwrap();
+            let gp = Gp::fit(&x, &y, (Scatter::None, None), Trend::Linear).unwrap();
             let square = |off: Vec<f64>| off.iter().map(|o| o * o).sum::<f64>() / 12.0;
             let factors =
                 [square(crossed(&gp, &x, &y, Scatter::None).unwrap()), square(gp.left_out().unwrap())];

@@ -20,11 +20,16 @@
 
 mod crossed;
 mod gp;
+mod likelihood;
+mod refined;
 mod rprop;
+mod trend;
 
 use crossed::crossed;
 pub(crate) use gp::{Gp, Logs, Prediction};
-use gp::{Scatter, Trend};
+use likelihood::Scatter;
+use refined::Refined;
+use trend::Trend;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
@@ -78,29 +83,6 @@ impl Lessons<'_> {
     }
 }
 
-/// An emulator that another one refines, in the components of that one.
-#[derive(Clone)]
-struct Refined {
-    emulator: Box<Emulator>,
-    /// From its components to the others: m = turn · scores + offset.
-    turn: DMatrix<f64>,
-    offset: DVector<f64>,
-}
-
-impl Refined {
-    /// Of the components of a basis, from a mean on.
-    fn new(emulator: &Emulator, basis: &DMatrix<f64>, mean: &DVector<f64>) -> Refined {
-        let turn = basis.tr_mul(&emulator.basis);
-        let offset = basis.tr_mul(&(&emulator.mean - mean));
-        Refined { emulator: Box::new(emulator.clone()), turn, offset }
-    }
-
-    /// What it says of each component at a point.
-    fn at(&self, z: &[f64]) -> DVector<f64> {
-        &self.turn * DVector::from_vec(self.emulator.scores(z)) + &self.offset
-    }
-}
-
 /// The emulator of one part.
 #[derive(Clone)]
 pub(crate) struct Emulator {
@@ -145,8 +127,14 @@ impl Emulator {
                 .map(|i| r.at(&lessons.inputs.row(i).iter().copied().collect::<Vec<_>>()))
                 .collect()
         });
+        // Where the other emulator says one thing of all trials, there is no line to follow.
+        let follows = |k: usize| {
+            said.as_ref().is_some_and(|said| {
+                DVector::from_fn(said.len(), |i, _| said[i][k]).variance() > LEAST * LEAST
+            })
+        };
         let inputs: Vec<DMatrix<f64>> = (0..scores.nrows())
-            .map(|k| match &said {
+            .map(|k| match said.as_ref().filter(|_| follows(k)) {
                 None => lessons.inputs.clone(),
                 Some(said) => {
                     let m = DVector::from_fn(said.len(), |i, _| said[i][k]);
@@ -159,10 +147,12 @@ impl Emulator {
         let fit = |k: usize| {
             let start = if same { lessons.before.get(k) } else { None };
             let y = scores.row(k).transpose();
-            match &refined {
-                None => Gp::fit(&inputs[k], &y, (lessons.scatter(), start)),
-                Some(_) => Gp::fit_with(&inputs[k], &y, (lessons.scatter(), start), Trend::Other),
-            }
+            let trend = match (&refined, follows(k)) {
+                (None, _) => Trend::of(inputs[k].nrows(), inputs[k].ncols()),
+                (Some(_), true) => Trend::Other,
+                (Some(_), false) => Trend::Constant,
+            };
+            Gp::fit(&inputs[k], &y, (lessons.scatter(), start), trend)
         };
         let mut components: Vec<Gp> = (0..scores.nrows()).into_par_iter().map(fit).collect::<Option<_>>()?;
         let few = lessons.inputs.nrows() < FEW * lessons.inputs.ncols();

@@ -46,9 +46,17 @@ struct Candidate {
 /// The even points of a step, from the `from`-th on.
 pub(crate) fn even(region: &Region, seed: u64, from: usize, count: usize) -> Vec<Vec<f64>> {
     let sequence = Halton::new(region.dimensions(), seed);
+    if region.is_whole() {
+        return (from..from + count).map(|k| sequence.point(k as u64)).collect();
+    }
+    // Both are even by themselves: digits of k are those of the coordinates.
+    let anywhere = Halton::new(region.dimensions(), !seed);
     let place = |k: usize| {
-        let point = sequence.point(k as u64);
-        if k % ANYWHERE == ANYWHERE - 1 { point } else { region.at(&point) }
+        if k % ANYWHERE == ANYWHERE - 1 {
+            anywhere.point((k / ANYWHERE) as u64)
+        } else {
+            region.at(&sequence.point((k - k / ANYWHERE) as u64))
+        }
     };
     (from..from + count).map(place).collect()
 }
@@ -161,6 +169,33 @@ fn believe(processes: &[(&Gp, f64, f64)], candidates: &mut [Candidate], chosen: 
             let with = gp.covariance((&c.z, &c.projections[k]), (&z, &projections[k]));
             let p = &mut c.predictions[k];
             p.variance = (p.variance - with * with / own).max(0.0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of a step that refines another one: both the points in the region and those anywhere are in every quarter of each coordinate.
+    #[test]
+    fn even_points_of_a_refining_step_are_even_by_themselves() {
+        let region = Region::of(vec![[0.4, 0.8], [0.0, 0.2]]);
+        for seed in 0..5 {
+            let points = even(&region, seed, 0, 64);
+            let (anywhere, inside): (Vec<_>, Vec<_>) =
+                points.iter().enumerate().partition(|(k, _)| k % 4 == 3);
+            let quarters = |points: &[(usize, &Vec<f64>)], at: usize, [low, high]: [f64; 2]| {
+                let mut found = [0; 4];
+                for (_, z) in points {
+                    let share = (z[at] - low) / (high - low);
+                    assert!((0.0..=1.0).contains(&share));
+                    found[((4.0 * share) as usize).min(3)] += 1;
+                }
+                found.iter().all(|n| *n >= 2)
+            };
+            assert!((0..2).all(|at| quarters(&anywhere, at, [0.0, 1.0])), "{seed}");
+            assert!(quarters(&inside, 0, [0.4, 0.8]) && quarters(&inside, 1, [0.0, 0.2]), "{seed}");
         }
     }
 }

@@ -132,8 +132,10 @@ impl<'a> Fitted<'a> {
 
     /// Samples of the posterior.
     pub fn samples(&self, seed: u64, length: Length) -> Samples {
-        let known = &self.known[..self.known.len().min(MOST_KNOWN)];
-        draw(&|z: &[f64]| self.log_density(z), self.step.fit.len(), known, seed, length)
+        // Trials of a folder may lie outside of bounds that are narrower now.
+        let inside = |z: &&Vec<f64>| z.iter().all(|z| (0.0..=1.0).contains(z));
+        let known: Vec<Vec<f64>> = self.known.iter().filter(inside).take(MOST_KNOWN).cloned().collect();
+        draw(&|z: &[f64]| self.log_density(z), self.step.fit.len(), &known, seed, length)
     }
 
     /// Square of the misfit at a point, and the degrees of freedom that it should have.

@@ -21,6 +21,12 @@ impl Region {
         Region(vec![[0.0, 1.0]; d])
     }
 
+    /// With these ends.
+    #[cfg(test)]
+    pub fn of(ends: Vec<[f64; 2]>) -> Region {
+        Region(ends)
+    }
+
     /// What samples of `d` parameters have left.
     pub fn left_by(samples: &Samples, d: usize) -> Region {
         let end = |at: usize| {
@@ -32,6 +38,11 @@ impl Region {
             [digits(low - room), digits(high + room)]
         };
         Region((0..d).map(end).collect())
+    }
+
+    /// Whether it is all of the coordinates.
+    pub fn is_whole(&self) -> bool {
+        self.0.iter().all(|ends| *ends == [0.0, 1.0])
     }
 
     /// Number of coordinates.

@@ -205,7 +205,7 @@ impl Session<'_> {
         }
     }
 
-    fn refuse_failures(&self, tried: &[Tried]) -> Result<()> {
+    pub(super) fn refuse_failures(&self, tried: &[Tried]) -> Result<()> {
         let failed: Vec<&Tried> = tried.iter().filter(|t| t.status == Status::Failed).collect();
         let (n, all) = (failed.len(), tried.len());
         if n as f64 <= self.recipe.settings.failures * all as f64 {

@@ -183,7 +183,7 @@ impl<'a> Session<'a> {
                 if let Some(rate) = work.rate_again(self.jobs) {
                     self.watch.tell(&rate);
                 }
-                work.check_sizes(self, step, tried)?;
+                work::check_sizes(self.recipe, step, tried)?;
             }
             batch += 1;
         }

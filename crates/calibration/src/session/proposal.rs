@@ -22,6 +22,11 @@ struct Kept {
     points: Vec<Vec<f64>>,
 }
 
+/// The file of a batch of a step, both from 0.
+pub(super) fn name(step: usize, batch: usize) -> String {
+    format!("step-{}-batch-{batch:03}.json", step + 1)
+}
+
 /// A coordinate with the digits that a file keeps: 1e-9.
 pub(super) fn digits(z: f64) -> f64 {
     (z * 1e9).round() / 1e9
@@ -36,7 +41,7 @@ impl Proposal {
         place: &Place,
         make: impl FnOnce() -> Proposal,
     ) -> Result<Proposal> {
-        let path = session.dir.join("batches").join(format!("step-{}-batch-{:03}.json", of.0 + 1, of.1));
+        let path = session.dir.join("batches").join(name(of.0, of.1));
         let stamp = stamp(session, of, tried, place);
         let read = || {
             let text = std::fs::read_to_string(&path).ok()?;

@@ -2,7 +2,7 @@
 
 use super::{Session, Tried, duration};
 use crate::error::{CalibrateError, Result};
-use crate::recipe::Step;
+use crate::recipe::{Recipe, Step};
 use crate::trial::run::{Ended, Hashes};
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -120,30 +120,30 @@ impl Work {
             duration(each)
         )
     }
+}
 
-    /// Refuses units that cannot be those of the data.
-    pub fn check_sizes(&self, session: &Session, step: &Step, tried: &[Tried]) -> Result<()> {
-        for part in &step.to {
-            let test = &session.recipe.tests[part.test];
-            let Some(target) = &test.target else { continue };
-            let sizes: Vec<f64> = tried
-                .iter()
-                .filter_map(|t| t.outputs[part.test].as_ref())
-                .map(|o| o.iter().fold(0.0, |a: f64, v| a.max(v.abs())))
-                .collect();
-            let ratio = |s: &f64| s / target.size();
-            let small = sizes.iter().map(ratio).fold(f64::INFINITY, f64::min);
-            let large = sizes.iter().map(ratio).fold(0.0, f64::max);
-            if sizes.is_empty() || large > 1.0 / OTHER_UNITS && small < OTHER_UNITS {
-                continue;
-            }
-            let message = format!(
-                "its trials are {} to {} times as large as the data: are the units the same? Name them: y_unit is that of the command, 'column [kPa]' that of the data",
-                geom::Shown(small),
-                geom::Shown(large)
-            );
-            return Err(CalibrateError::Test { test: test.name.clone(), message });
+/// Refuses units that cannot be those of the data.
+pub(super) fn check_sizes(recipe: &Recipe, step: &Step, tried: &[Tried]) -> Result<()> {
+    for part in &step.to {
+        let test = &recipe.tests[part.test];
+        let Some(target) = &test.target else { continue };
+        let sizes: Vec<f64> = tried
+            .iter()
+            .filter_map(|t| t.outputs[part.test].as_ref())
+            .map(|o| o.iter().fold(0.0, |a: f64, v| a.max(v.abs())))
+            .collect();
+        let ratio = |s: &f64| s / target.size();
+        let small = sizes.iter().map(ratio).fold(f64::INFINITY, f64::min);
+        let large = sizes.iter().map(ratio).fold(0.0, f64::max);
+        if sizes.is_empty() || large > 1.0 / OTHER_UNITS && small < OTHER_UNITS {
+            continue;
         }
-        Ok(())
+        let message = format!(
+            "its trials are {} to {} times as large as the data: are the units the same? Name them: y_unit is that of the command, 'column [kPa]' that of the data",
+            geom::Shown(small),
+            geom::Shown(large)
+        );
+        return Err(CalibrateError::Test { test: test.name.clone(), message });
     }
+    Ok(())
 }

@@ -19,7 +19,7 @@ use crate::compose::number;
 use crate::error::{LabError, Result};
 use crate::request::{Request, Specimen};
 use crate::sample::Sample;
-use crate::series::{Curve, Series, smooth};
+use crate::series::{Curve, Series, residual, smoothed};
 use geom::Vec3;
 use std::collections::BTreeMap;
 use text::{around, cylinder, damping, output, plane, pressing, rectangle, servo, translate, triangle, wall};
@@ -203,6 +203,11 @@ pub trait Recipe: Sync {
     /// What the curve comes to.
     fn values(&self, of: &Context, curve: &Curve) -> Vec<Value>;
 
+    /// What the user should know of the curve.
+    fn warnings(&self, _: &Context, _: &Curve) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Axes of the plot: column along x, columns along y.
     fn axes(&self) -> (&'static str, &'static [&'static str]);
 
@@ -228,8 +233,6 @@ pub fn find(name: &str) -> Option<&'static dyn Recipe> {
 
 /// Rows of a curve, where the user does not say.
 pub const ROWS: u64 = 200;
-/// Share of the end of a curve that is its residual [–].
-const RESIDUAL: f64 = 0.2;
 
 /// Refuses samples whose grains cannot fall into a heap or a drum.
 fn falls(test: &str, sample: &Sample, request: &Request) -> Result<()> {
@@ -315,18 +318,6 @@ impl Tables {
         let until = |t: &f64| broken.iter().filter(|crack| *crack <= t).count() as f64;
         Ok(curve.with("cracks", "", times.iter().map(until).collect()))
     }
-}
-
-/// A smooth curve: means over a fortieth of its rows.
-fn smoothed(values: &[f64]) -> Vec<f64> {
-    if values.is_empty() { Vec::new() } else { smooth(values, (values.len() / 40).max(1)) }
-}
-
-/// Mean over the last fifth of the rows; NaN of none.
-fn residual(values: &[f64]) -> f64 {
-    let from = values.len() - (RESIDUAL * values.len() as f64).ceil() as usize;
-    let last = &values[from..];
-    last.iter().sum::<f64>() / last.len() as f64
 }
 
 /// Refuses an option that a test does not use.

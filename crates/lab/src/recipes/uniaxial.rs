@@ -16,6 +16,8 @@ pub struct Uniaxial;
 
 /// Axial strain at the end [–].
 const END: f64 = 0.02;
+/// Difference of the stresses on both plates over the larger one, from which a test is too fast [–].
+const UNEVEN: f64 = 0.1;
 /// Share of the test in which the plate gets up to speed [–].
 const RAMP: f64 = 0.1;
 
@@ -205,6 +207,25 @@ impl Recipe for Uniaxial {
             value("cracks_at_strength", "", cracks),
             value("residual_stress", "Pa", residual(stress)),
         ]
+    }
+
+    fn warnings(&self, of: &Context, curve: &Curve) -> Vec<String> {
+        let stress = curve.column("stress");
+        let half = peak(stress).and_then(|top| reaches(stress, 0.5 * stress[top]));
+        let Some([upper, lower]) =
+            half.map(|half| ["stress", "lower_stress"].map(|name| at(curve.column(name), half)))
+        else {
+            return Vec::new();
+        };
+        let uneven = (upper - lower).abs() / upper.max(lower);
+        let speed = of.request.speed_of_plate(&of.sample.grains);
+        let words = || {
+            format!(
+                "at half the strength the upper plate bears {upper:.3e} Pa and the lower one {lower:.3e} Pa: the test is too fast for its values to be those of a slow one: use --speed {:.2e} or less (now {speed:.2e} m/s)",
+                speed * 0.5 * UNEVEN / uneven
+            )
+        };
+        if uneven > UNEVEN { vec![words()] } else { Vec::new() }
     }
 
     fn axes(&self) -> (&'static str, &'static [&'static str]) {
