@@ -84,9 +84,12 @@ impl Grains {
         (grains.volume, grains.density, grains.around) = (solid / n, mass / solid, around / solid);
         grains.packed = packed.then(|| Packed::of(&setup, solid));
         grains.step = dem::time_step(&setup).map_err(SceneSetupError::from)?;
-        let speeds = setup.bonds.iter().filter_map(|bond| breaking(bond, grains.diameter, grains.density));
-        grains.breaking = speeds.min_by(f64::total_cmp);
         Ok(grains)
+    }
+
+    /// The least ε c of bonds.
+    pub(crate) fn breaking_of(&self, bonds: &[Bond]) -> Option<f64> {
+        bonds.iter().filter_map(|bond| breaking(bond, self.diameter, self.density)).min_by(f64::total_cmp)
     }
 }
 

@@ -154,10 +154,18 @@ impl Request {
         self.speed.unwrap_or_else(|| self.rate(grains, pressure) * length.min(BAND * grains.diameter))
     }
 
-    /// Speed of a plate [m/s] where no stress sets the rate: so slow that waves pass many times before bonds break.
+    /// Speed of a plate [m/s] where no stress sets the rate.
     pub(crate) fn speed_of_plate(&self, grains: &Grains) -> f64 {
-        let fast = WAY * grains.diameter / grains.step;
-        self.speed.unwrap_or(grains.breaking.map_or(fast, |breaking| fast.min(breaking / PASSES)))
+        self.speed.unwrap_or(WAY * grains.diameter / grains.step)
+    }
+
+    /// The same for a specimen of many bonded grains: so slow that waves pass many times before bonds break [m/s].
+    pub(crate) fn speed_on_bonds(&self, grains: &Grains) -> f64 {
+        let fast = self.speed_of_plate(grains);
+        match grains.breaking.filter(|_| self.speed.is_none()) {
+            Some(breaking) => fast.min(breaking / PASSES),
+            None => fast,
+        }
     }
 
     /// Speed limit of a servo that presses on the specimen [m/s].

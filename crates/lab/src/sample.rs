@@ -60,6 +60,7 @@ impl Sample {
         let trial = sample.trial()?;
         sample.files = trial.files();
         sample.grains = Grains::of(&trial, sample.is_packed())?;
+        sample.grains.breaking = sample.grains.breaking_of(&sample.bonded()?.plan(Vec::new())?.setup.bonds);
         let limit = APART * sample.grains.largest;
         match sample.grains.packed.as_ref().and_then(|packed| packed.gap_above(limit)) {
             None => Ok(sample),
@@ -102,6 +103,17 @@ impl Sample {
         let mut document = self.document.clone();
         scene::text::rebase(&mut document, &self.folder, folder);
         Composition::new(document)
+    }
+
+    /// A scene of the sample with its bonds, and next to no grains where they are filled in.
+    fn bonded(&self) -> Result<Scene> {
+        let mut scene = self.compose();
+        scene.set("time", "until", 1.0);
+        if !self.is_packed() {
+            scene.set("fill.0", "shape", "box:0,0,0,1,1,1");
+            scene.set("fill.0", "count", 1);
+        }
+        trial_scene(self, &scene)
     }
 
     /// A scene of the sample alone: its packed grains, or a few in a large box.

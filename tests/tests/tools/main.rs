@@ -14,6 +14,7 @@ mod every_option;
 mod example_scenes;
 mod help_examples;
 mod lab_folders;
+mod lab_speed;
 mod lab_test;
 mod layout;
 mod ledger_line;

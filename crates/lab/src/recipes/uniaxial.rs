@@ -1,8 +1,10 @@
 //! Uniaxial compression: a specimen of bonded grains between two plates.
 //!
 //! ```text
-//! σ = F/A     ε = 1 − h/h₀     strength: largest σ     E = σ/ε at half of it     ν = −ε_lateral/ε_axial of the grains in the middle half there
+//! σ = F/A     ε = 1 − h/h₀     strength: largest σ     E = Δσ/Δε from a quarter to half of it     ν = −Δε_lateral/Δε_axial of the grains in the middle half there
 //! ```
+//! Changes count, since a specimen that was pressed together spreads when its vessel is gone, and begins under a stress.
+//!
 //! A filled specimen is a cylinder: grains without friction are pressed together in a round vessel, and bonded when the vessel is gone. A packed one is
 //! taken as it is; A is then the area of its outline from above.
 
@@ -149,7 +151,7 @@ impl Recipe for Uniaxial {
 
     fn test(&self, of: &Context, prepared: &Prepared) -> Result<Part> {
         let height = height(of, prepared);
-        let speed = of.request.speed_of_plate(&of.sample.grains);
+        let speed = of.request.speed_on_bonds(&of.sample.grains);
         let time = of.request.strain.unwrap_or(END) * height / speed;
         let ramp = RAMP * time;
         let until = time + 0.5 * ramp;
@@ -195,15 +197,18 @@ impl Recipe for Uniaxial {
     fn values(&self, _: &Context, curve: &Curve) -> Vec<Value> {
         let (strain, stress) = (curve.column("strain"), curve.column("stress"));
         let Some(top) = peak(stress) else { return Vec::new() };
-        let middle = reaches(stress, 0.5 * stress[top]);
-        let of_half = |name: &str| middle.map_or(f64::NAN, |half| at(curve.column(name), half));
+        let ends = [0.25, 0.5].map(|share| reaches(stress, share * stress[top]));
+        let change = |name: &str| match ends {
+            [Some(quarter), Some(half)] => at(curve.column(name), half) - at(curve.column(name), quarter),
+            _ => f64::NAN,
+        };
         let cracks = curve.column("cracks").get(top).copied().unwrap_or(f64::NAN);
         let value = |name, unit, value| Value { name, unit, value };
         vec![
             value("strength", "Pa", stress[top]),
             value("strain_at_strength", "", strain[top]),
-            value("young", "Pa", 0.5 * stress[top] / of_half("strain")),
-            value("poisson", "", -of_half("middle_lateral_strain") / of_half("middle_axial_strain")),
+            value("young", "Pa", 0.25 * stress[top] / change("strain")),
+            value("poisson", "", -change("middle_lateral_strain") / change("middle_axial_strain")),
             value("cracks_at_strength", "", cracks),
             value("residual_stress", "Pa", residual(stress)),
         ]
@@ -218,7 +223,7 @@ impl Recipe for Uniaxial {
             return Vec::new();
         };
         let uneven = (upper - lower).abs() / upper.max(lower);
-        let speed = of.request.speed_of_plate(&of.sample.grains);
+        let speed = of.request.speed_on_bonds(&of.sample.grains);
         let words = || {
             format!(
                 "at half the strength the upper plate bears {upper:.3e} Pa and the lower one {lower:.3e} Pa: the test is too fast for its values to be those of a slow one: use --speed {:.2e} or less (now {speed:.2e} m/s)",
