@@ -61,7 +61,7 @@ calibrate "$here/free-flowing.toml" --data "heap=$out/lab/angles.csv" --data "di
   --plot "$docs/calibration-grains.png" --words "$out/grains.md" -o "$out/grains.csv"
 "$here/../stages/section.sh" "$page" grains < "$out/grains.md"
 
-# Cores on lab-test: 88 of them.
+# Cores on lab-test: 54 of them.
 calibrate "$here/rock.toml" --jobs "$jobs" --dir "$out/rock" -q --plot "$docs/calibration-rock.png" --words "$out/rock.md" -o "$out/rock.csv"
 "$here/../stages/section.sh" "$page" rock < "$out/rock.md"
 

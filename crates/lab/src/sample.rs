@@ -105,7 +105,7 @@ impl Sample {
         Composition::new(document)
     }
 
-    /// A scene of the sample with its bonds, and next to no grains where they are filled in.
+    /// A scene of the sample with its bonds, and one grain where they are filled in.
     fn bonded(&self) -> Result<Scene> {
         let mut scene = self.compose();
         scene.set("time", "until", 1.0);

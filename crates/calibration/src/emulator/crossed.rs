@@ -39,7 +39,7 @@ pub(crate) fn crossed(
     Some(off)
 }
 
-/// Indices below `n` in an order of chance, always the same: in the order of even points each tenth one lies in a part of the space.
+/// Indices below `n` in a random order, always the same one: in the order of even points each tenth one lies in a part of the space.
 fn shuffled(n: usize) -> Vec<usize> {
     let mut random = generator(STREAM, n as u64, 0);
     let mut order: Vec<usize> = (0..n).collect();

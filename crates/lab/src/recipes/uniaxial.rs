@@ -1,7 +1,7 @@
 //! Uniaxial compression: a specimen of bonded grains between two plates.
 //!
 //! ```text
-//! σ = F/A     ε = 1 − h/h₀     strength: largest σ     E = Δσ/Δε from a quarter to half of it     ν = −Δε_lateral/Δε_axial of the grains in the middle half there
+//! σ = F/A     ε = 1 − h/h₀     strength: largest σ     E = Δσ/Δε from a quarter to half of the way to it     ν = −Δε_lateral/Δε_axial of the grains in the middle half there
 //! ```
 //! Changes count, since a specimen that was pressed together spreads when its vessel is gone, and begins under a stress.
 //!
@@ -59,6 +59,11 @@ fn outline(circles: impl Iterator<Item = (f64, f64, f64)>) -> f64 {
     hull.extend(half(&mut points.iter().rev().copied()));
     let next = hull.iter().cycle().skip(1);
     0.5 * hull.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>()
+}
+
+/// Where a stress has come this share of the way from its first value to its largest one, in row `top`.
+fn on_the_way(stress: &[f64], top: usize, share: f64) -> Option<(usize, f64)> {
+    reaches(stress, stress[0] + share * (stress[top] - stress[0]))
 }
 
 impl Recipe for Uniaxial {
@@ -197,7 +202,7 @@ impl Recipe for Uniaxial {
     fn values(&self, _: &Context, curve: &Curve) -> Vec<Value> {
         let (strain, stress) = (curve.column("strain"), curve.column("stress"));
         let Some(top) = peak(stress) else { return Vec::new() };
-        let ends = [0.25, 0.5].map(|share| reaches(stress, share * stress[top]));
+        let ends = [0.25, 0.5].map(|share| on_the_way(stress, top, share));
         let change = |name: &str| match ends {
             [Some(quarter), Some(half)] => at(curve.column(name), half) - at(curve.column(name), quarter),
             _ => f64::NAN,
@@ -207,7 +212,7 @@ impl Recipe for Uniaxial {
         vec![
             value("strength", "Pa", stress[top]),
             value("strain_at_strength", "", strain[top]),
-            value("young", "Pa", 0.25 * stress[top] / change("strain")),
+            value("young", "Pa", change("stress") / change("strain")),
             value("poisson", "", -change("middle_lateral_strain") / change("middle_axial_strain")),
             value("cracks_at_strength", "", cracks),
             value("residual_stress", "Pa", residual(stress)),
@@ -216,7 +221,7 @@ impl Recipe for Uniaxial {
 
     fn warnings(&self, of: &Context, curve: &Curve) -> Vec<String> {
         let stress = curve.column("stress");
-        let half = peak(stress).and_then(|top| reaches(stress, 0.5 * stress[top]));
+        let half = peak(stress).and_then(|top| on_the_way(stress, top, 0.5));
         let Some([upper, lower]) =
             half.map(|half| ["stress", "lower_stress"].map(|name| at(curve.column(name), half)))
         else {
@@ -241,6 +246,14 @@ impl Recipe for Uniaxial {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A core that was pressed together begins at 0.4 of its strength.
+    #[test]
+    fn a_stress_that_begins_high_has_a_quarter_of_its_way() {
+        let (row, share) = on_the_way(&[4.0, 5.0, 9.0, 10.0, 3.0], 3, 0.25).unwrap();
+        assert!(row == 2 && (share - 0.125).abs() < 1e-12);
+        assert_eq!(on_the_way(&[4.0, 3.0], 0, 0.25), None);
+    }
 
     #[test]
     fn the_outline_of_circles() {
