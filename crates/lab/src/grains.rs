@@ -84,6 +84,7 @@ impl Grains {
         (grains.volume, grains.density, grains.around) = (solid / n, mass / solid, around / solid);
         grains.packed = packed.then(|| Packed::of(&setup, solid));
         grains.step = dem::time_step(&setup).map_err(SceneSetupError::from)?;
+        grains.breaking = grains.breaking_of(&setup.bonds);
         Ok(grains)
     }
 

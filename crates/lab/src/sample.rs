@@ -60,7 +60,11 @@ impl Sample {
         let trial = sample.trial()?;
         sample.files = trial.files();
         sample.grains = Grains::of(&trial, sample.is_packed())?;
-        sample.grains.breaking = sample.grains.breaking_of(&sample.bonded()?.plan(Vec::new())?.setup.bonds);
+        if !sample.is_packed() && sample.has("bond") {
+            // The trial lacks them.
+            let bonded = trial_scene(&sample, &sample.few())?.plan(Vec::new())?;
+            sample.grains.breaking = sample.grains.breaking_of(&bonded.setup.bonds);
+        }
         let limit = APART * sample.grains.largest;
         match sample.grains.packed.as_ref().and_then(|packed| packed.gap_above(limit)) {
             None => Ok(sample),
@@ -105,25 +109,22 @@ impl Sample {
         Composition::new(document)
     }
 
-    /// A scene of the sample with its bonds, and one grain where they are filled in.
-    fn bonded(&self) -> Result<Scene> {
+    /// A scene of the sample with its bonds: its packed grains, or one in a box.
+    fn few(&self) -> Composition {
         let mut scene = self.compose();
         scene.set("time", "until", 1.0);
         if !self.is_packed() {
             scene.set("fill.0", "shape", "box:0,0,0,1,1,1");
             scene.set("fill.0", "count", 1);
         }
-        trial_scene(self, &scene)
+        scene
     }
 
     /// A scene of the sample alone: its packed grains, or a few in a large box.
     fn trial(&self) -> Result<Scene> {
-        let mut trial = self.compose();
-        trial.set("time", "until", 1.0);
+        let mut trial = self.few();
         if !self.is_packed() {
             trial.remove("bond");
-            trial.set("fill.0", "shape", "box:0,0,0,1,1,1");
-            trial.set("fill.0", "count", 1);
             let largest = match trial_scene(self, &trial)? {
                 scene if scene.keys.fill.first().is_some_and(|fill| fill.clump.is_some()) => {
                     2.0 * largest(&scene.clump_reaches()?) * scale(&scene)

@@ -24,6 +24,7 @@ const MOST_FITTED: usize = 120;
 /// Ranges of ln ℓ and ln g.
 const LENGTHS: [f64; 2] = [-2.5, 4.0];
 const NOISES: [f64; 2] = [-18.0, 2.0];
+
 /// ln ℓ of each parameter, then ln g.
 pub(crate) type Logs = Vec<f64>;
 
@@ -180,13 +181,9 @@ impl Gp {
 
 #[cfg(test)]
 mod tests {
+    use super::super::likelihood::tests::points;
     use super::*;
     use geom::random::{generator, unit};
-
-    fn points(n: usize, d: usize, seed: u64) -> DMatrix<f64> {
-        let mut random = generator(seed, 1, 0);
-        DMatrix::from_fn(n, d, |_, _| unit(&mut random))
-    }
 
     #[test]
     fn a_smooth_function_is_learnt_with_its_uncertainty() {

@@ -140,12 +140,12 @@ pub(super) fn loss(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::super::trend::{Trend, basis};
     use super::*;
     use geom::random::{generator, unit};
 
-    fn points(n: usize, d: usize, seed: u64) -> DMatrix<f64> {
+    pub fn points(n: usize, d: usize, seed: u64) -> DMatrix<f64> {
         let mut random = generator(seed, 1, 0);
         DMatrix::from_fn(n, d, |_, _| unit(&mut random))
     }

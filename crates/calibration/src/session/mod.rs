@@ -110,8 +110,7 @@ impl<'a> Session<'a> {
                 return Ok(Standing::Open(work.open));
             };
             let best = end.samples.best.z.clone();
-            end.fitted.inflate(&best);
-            end.samples = end.fitted.samples(recipe.settings.seed ^ SEEDS ^ k as u64, LONG);
+            end.samples = self.posterior(&mut end.fitted, k, &best);
             for (j, &p) in step.fit.iter().enumerate() {
                 let values = end.samples.sorted(j);
                 // With the digits that a file keeps.
@@ -123,6 +122,12 @@ impl<'a> Session<'a> {
             ends.push(end);
         }
         Ok(Standing::Done { tried, steps: ends })
+    }
+
+    /// The final samples of a step, once its deviations allow for the misfit of the best point.
+    fn posterior(&self, fitted: &mut Fitted, step: usize, best: &[f64]) -> Samples {
+        fitted.inflate(best);
+        fitted.samples(self.recipe.settings.seed ^ SEEDS ^ step as u64, LONG)
     }
 
     fn found(&self, step: &Step, held: &[f64]) -> String {

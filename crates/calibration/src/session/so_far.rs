@@ -2,10 +2,10 @@
 
 use super::proposal::name;
 use super::work::check_sizes;
-use super::{LONG, SEEDS, Session, Standing, Status, StepEnd, Tried};
+use super::{Session, Standing, Status, StepEnd, Tried};
 use crate::error::{CalibrateError, Result};
 use crate::fit::region::Region;
-use crate::fit::{Fitted, Place, misfit};
+use crate::fit::{Fitted, Place, choice, misfit};
 use crate::judge::quantile;
 use crate::recipe::{Step, shown};
 use crate::trial::run::{Hashes, ended};
@@ -47,8 +47,8 @@ impl<'a> Session<'a> {
             let refined = step.refines.map(|r| &ends[r]);
             let (d, region) = (step.fit.len(), Region::whole(step.fit.len()));
             let place = Place { held: &held, region: &region, refined: refined.map(|end| &end.fitted) };
-            let until: Vec<Tried> = tried.iter().filter(|t| t.trial.step <= k).cloned().collect();
-            let fitted = if own.is_empty() { None } else { Fitted::learn(recipe, step, &until, &place, &[]) };
+            let until = &tried[..tried.partition_point(|t| t.trial.step <= k)];
+            let fitted = if own.is_empty() { None } else { Fitted::learn(recipe, step, until, &place, &[]) };
             let Some(mut fitted) = fitted else {
                 let message = format!(
                     "step '{}' has {} trials so far, which are too few to learn from ({} or more that came to their end)",
@@ -62,12 +62,10 @@ impl<'a> Session<'a> {
                 self.watch.warn(&format!("{message}: it and later steps are left out"));
                 break;
             };
-            check_sizes(recipe, step, &until)?;
+            check_sizes(recipe, step, until)?;
             self.held_apart(step, &held, &ends);
-            let seed = recipe.settings.seed ^ SEEDS ^ k as u64;
-            let best = fitted.samples(seed, LONG).best;
-            fitted.inflate(&best.z);
-            let samples = fitted.samples(seed, LONG);
+            let best = fitted.samples(self.seed(k, 0), choice::SHORT).best;
+            let samples = self.posterior(&mut fitted, k, &best.z);
             let (trials, widths) = (own.len(), vec![(own.len(), self.widths(&samples))]);
             ends.push(StepEnd { fitted, samples, trials, early: false, widths, held });
         }
@@ -105,7 +103,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// The trials of the folder that have a result, and words on those that are left out.
+    /// The trials of the folder that have a result, step by step, and words on those that are left out.
     fn stored(&self) -> Result<(Vec<Tried>, String)> {
         let folder = self.dir.join("trials");
         let list =
@@ -128,6 +126,7 @@ impl<'a> Session<'a> {
                 }
             }
         }
+        tried.sort_by_key(|t| t.trial.step);
         let kinds = [
             (of_others, "of other steps or parameters"),
             (changed, "of another command, seed, or version of a program or file"),
