@@ -93,15 +93,9 @@ impl<'a> Joined<'a> {
     }
 }
 
-/// Tension and shear that a bond resists under this load [Pa].
-fn resists(bond: &BondNumbers, pull: &Pull) -> [f64; 2] {
-    let [tension, shear, friction] = bond.strength;
-    [tension, (shear - pull.stress[2] * friction).max(0.0)]
-}
-
 /// Which of both strengths a load comes nearer to.
 fn mode(bond: &BondNumbers, pull: &Pull) -> BreakMode {
-    let [tension, shear] = resists(bond, pull);
+    let [tension, shear] = bond.resists(pull.stress[2]);
     let nearer = pull.stress[0] / tension >= pull.stress[1] / shear;
     if tension.is_finite() && (nearer || shear.is_infinite()) { BreakMode::Tension } else { BreakMode::Shear }
 }
@@ -111,7 +105,7 @@ fn state(ids: [u32; 2], middle: Vec3, bond: &BondNumbers, pull: &Pull, broken: O
         None => (pull.force.into(), pull.moment.map(Into::into)),
         Some(_) => (Vec3::zeros(), [Vec3::zeros(); 2]),
     };
-    let [tension, shear, _] = pull.stress;
+    let [tension, shear, mean] = pull.stress;
     BondState {
         ids,
         middle,
@@ -121,6 +115,6 @@ fn state(ids: [u32; 2], middle: Vec3, bond: &BondNumbers, pull: &Pull, broken: O
         force,
         moments,
         stress: [tension, shear],
-        strength: resists(bond, pull),
+        strength: bond.resists(mean),
     }
 }

@@ -217,4 +217,14 @@ impl BondNumbers {
         let axis = -(self.reference * self.axis);
         BondNumbers { axis, reference: self.reference.inverse(), share: 1.0 - self.share, ..*self }
     }
+
+    /// Tension and shear that it resists at a mean tension [Pa].
+    pub fn resists(&self, mean: f64) -> [f64; 2] {
+        resists(self.strength, mean)
+    }
+}
+
+/// Tension and shear that a bond of σ_c, τ_c [Pa] and tan φ resists at a mean tension [Pa].
+pub fn resists([tension, shear, friction]: [f64; 3], mean: f64) -> [f64; 2] {
+    [tension, (shear - mean * friction).max(0.0)]
 }

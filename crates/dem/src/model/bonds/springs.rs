@@ -10,6 +10,7 @@
 
 use crate::model::BreakMode;
 use crate::setup::BondNumbers;
+use crate::setup::bond::resists;
 use crate::simd::{Lane, Row, Turn, V};
 use geom::Vec3;
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -57,15 +58,10 @@ pub fn replaces_contact(springs: &Springs) -> bool {
     springs[1][7] != 0.0
 }
 
-/// Tension and shear that it resists at a mean tension [Pa].
-pub fn resists(springs: &Springs, mean: f64) -> [f64; 2] {
-    let Row([_, _, _, tension, shear, friction, ..]) = springs[2];
-    [tension, (shear - mean * friction).max(0.0)]
-}
-
 /// What breaks it at these stresses (tension at the rim, shear, mean tension) [Pa]: that which passes its strength by more.
 pub fn breaks(springs: &Springs, [tension, shear, mean]: [f64; 3]) -> Option<BreakMode> {
-    let [most, resists] = resists(springs, mean);
+    let Row([_, _, _, strength @ .., _, _]) = springs[2];
+    let [most, resists] = resists(strength, mean);
     match (tension > most, shear > resists) {
         (false, false) => None,
         (true, true) if tension * resists < shear * most => Some(BreakMode::Shear),

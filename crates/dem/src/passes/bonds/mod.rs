@@ -9,7 +9,7 @@ pub mod make;
 pub mod zones;
 
 use crate::kernel::LEDGER;
-use crate::model::bonds::springs::{breaks, numbers, replaces_contact, resists};
+use crate::model::bonds::springs::{breaks, numbers, replaces_contact};
 use crate::model::{BondedPair, GONE, Model, Pull, Springs};
 use crate::neighbours::NeighbourLists;
 use crate::passes::bonds::lanes::{BondChunk, Instant};
@@ -93,16 +93,20 @@ pub fn bonds(model: &Model, state: &State) -> Vec<BondState> {
         let from = p.position(j as usize);
         cell.wrapped(from + cell.nearest(p.position(i as usize) - from) * 0.5)
     };
-    let of = |((pair, pull), springs): ((&BondedPair, &Pull), &Springs)| BondState {
-        ids: pair.ends.map(|k| p.id[k as usize]),
-        middle: middle(pair.ends),
-        size: numbers(springs).size,
-        broken: pair.broken.is_finite().then_some(pair.broken),
-        mode: pair.mode,
-        force: pull.force.into(),
-        moments: pull.moment.map(Into::into),
-        stress: [pull.stress[0], pull.stress[1]],
-        strength: resists(springs, pull.stress[2]),
+    let of = |((pair, pull), springs): ((&BondedPair, &Pull), &Springs)| {
+        let bond = numbers(springs);
+        let [tension, shear, mean] = pull.stress;
+        BondState {
+            ids: pair.ends.map(|k| p.id[k as usize]),
+            middle: middle(pair.ends),
+            size: bond.size,
+            broken: pair.broken.is_finite().then_some(pair.broken),
+            mode: pair.mode,
+            force: pull.force.into(),
+            moments: pull.moment.map(Into::into),
+            stress: [tension, shear],
+            strength: bond.resists(mean),
+        }
     };
     let Bonds { pairs, pulls, springs, .. } = &state.bonds;
     let here = pairs.iter().zip(pulls).zip(springs).filter(|((pair, _), _)| pair.broken != GONE);
