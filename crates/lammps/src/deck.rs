@@ -6,7 +6,7 @@ use crate::bonds::Bonds;
 use crate::clumps;
 use crate::data;
 use crate::error::{LammpsError, Result};
-use crate::files::{BATCH, BODIES, BONDS, DATA, FINISHED, FRAMES, INPUT, OF_BONDS, STATES, TOUCHES};
+use crate::files::{BATCH, BODIES, BONDS, DATA, DUMPS, FINISHED, FRAMES, INPUT, OF_BONDS, STATES, TOUCHES};
 use crate::head;
 use crate::law::{Target, coefficients};
 use crate::loads::Asked;
@@ -296,6 +296,8 @@ fn tail(scene: &Scene, schedule: &Schedule, asked: &Asked, rigid: bool) -> Strin
     let energy = if rigid { "atoms" } else { "ke" };
     let keep = scene.keys.output.checkpoint.map_or(*last as f64 / KEPT, |s| s / dt).clamp(1.0, *last as f64);
     let (keep, [a, b], loads, columns) = (keep.round(), STATES, asked.commands(), asked.of_frames());
+    let stems = DUMPS.iter().filter(|dump| asked.has(dump)).map(|dump| dump.trim_end_matches(".dump"));
+    let parts: String = stems.map(|dump| format!(" -var {dump} {dump}-2.dump")).collect();
     let turned = match asked.has(OF_BONDS) {
         true => "compute turned grains property/atom quatw quati quatj quatk\n",
         false => "",
@@ -308,7 +310,7 @@ fn tail(scene: &Scene, schedule: &Schedule, asked: &Asked, rigid: bool) -> Strin
          dump_modify frames every v_next first ${{first}} flush yes format float %.17g\n\
          {loads}\n\
          thermo {report}\nthermo_style custom step {energy}\nthermo_modify lost error flush yes\n\
-         # states, in turn: lmp -in run.in -var state {a} -var frames frames-2.dump goes on from one\n\
+         # states, in turn: lmp -in run.in -var state {a}{parts} goes on from one\n\
          variable keep index {keep}\nif \"${{state}} == {a}\" then \"variable states string '{b} {a}'\" else \"variable states string '{a} {b}'\"\n\
          if \"${{keep}} > 0\" then \"restart ${{keep}} ${{states}}\"\nrun {last} upto\n\
          print \"step {last}\" file {FINISHED}\n"
