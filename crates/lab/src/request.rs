@@ -154,18 +154,11 @@ impl Request {
         self.speed.unwrap_or_else(|| self.rate(grains, pressure) * length.min(BAND * grains.diameter))
     }
 
-    /// Speed of a plate [m/s] where no stress sets the rate.
+    /// Speed of a plate on bonded grains [m/s]: so slow that waves pass many times before bonds break.
     pub(crate) fn speed_of_plate(&self, grains: &Grains) -> f64 {
-        self.speed.unwrap_or(WAY * grains.diameter / grains.step)
-    }
-
-    /// The same for a specimen of many bonded grains: so slow that waves pass many times before bonds break [m/s].
-    pub(crate) fn speed_on_bonds(&self, grains: &Grains) -> f64 {
-        let fast = self.speed_of_plate(grains);
-        match grains.breaking.filter(|_| self.speed.is_none()) {
-            Some(breaking) => fast.min(breaking / PASSES),
-            None => fast,
-        }
+        let fast = WAY * grains.diameter / grains.step;
+        let slow = grains.breaking.map_or(fast, |breaking| fast.min(breaking / PASSES));
+        self.speed.unwrap_or(slow)
     }
 
     /// Speed limit of a servo that presses on the specimen [m/s].

@@ -147,25 +147,29 @@ fn columns_of_grains_are_springs_in_a_row() {
     assert!((area / exact - 1.0).abs() < 1e-3, "{area}");
 }
 
+/// Two of these cubes stand on an edge and turn: they have no strength.
 #[test]
 fn a_stone_is_crushed_in_another_orientation_for_each_seed() {
     let lab = lab();
     let path = lab.path();
     let words =
-        ["crush", "rock.toml", "--seeds", "5", "-q", "--report", "r.json", "-o", "c.csv", "--words", "w.md"];
-    succeed(path, "lab-test", &words);
+        ["crush", "rock.toml", "--seeds", "7", "--report", "r.json", "-o", "c.csv", "--words", "w.md"];
+    let done = succeed(path, "lab-test", &words);
     let report = json(path, "r.json");
-    let strengths: Vec<f64> = report["levels"][0]["figures"][0]["values"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|v| v.as_f64().unwrap())
-        .collect();
-    assert_eq!(strengths.len(), 5);
+    let values = report["levels"][0]["figures"][0]["values"].as_array().unwrap();
+    let strengths: Vec<f64> = values.iter().filter_map(|v| v.as_f64()).collect();
+    assert_eq!((values.len(), strengths.len()), (7, 5));
     assert!(strengths.windows(2).all(|pair| pair[0] != pair[1]), "{strengths:?}");
+    let turned = "so the stone has no strength: it turned between the plates";
+    assert_eq!(done.stderr.matches(turned).count(), 2, "{}", done.stderr);
+    assert!(done.stderr.contains("seed=4: no bond has broken"), "{}", done.stderr);
+    assert!(!done.stderr.contains("too fast"), "{}", done.stderr);
     assert!(report["weibull"][0]["mean"].as_f64().unwrap() > 1.0);
     assert!(fs::read_to_string(path.join("w.md")).unwrap().contains("| weibull modulus of all |"));
-    assert!(*columns(path, "c.csv")["cracks"].last().unwrap() > 0.0);
+    assert!(columns(path, "c.csv")["cracks"].iter().any(|cracks| *cracks > 0.0));
+    let fast = ["crush", "rock.toml", "--speed", "0.6", "-o", "fast.csv"];
+    let done = succeed(path, "lab-test", &fast);
+    assert!(done.stderr.contains("the test is too fast"), "{}", done.stderr);
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! Crushing of a single stone of bonded grains between two plates, in a random orientation for each seed.
 //!
 //! ```text
-//! strength = F_max/d²     d: distance of the plates when they touch the stone     Jaeger (1967), doi:10.1016/0148-9062(67)90001-4
+//! strength = F_max/d²     F_max: from the first crack on     d: distance of the plates when they touch the stone
 //! ```
+//! Jaeger (1967), doi:10.1016/0148-9062(67)90001-4. A stone on a corner may turn before it breaks: what it bore until then is no strength.
 //! The sample is one cluster in `[[particles]]`; strengths of its bonds are drawn from the seed.
 
+use super::plates::uneven;
 use super::*;
 use crate::series::peak;
 use crate::walls::PLATE;
@@ -28,6 +30,12 @@ fn lying(of: &Context) -> Vec<(Vec3, f64)> {
 
 fn height(of: &Context) -> f64 {
     lying(of).iter().map(|(c, r)| c.z + r).fold(0.0, f64::max)
+}
+
+/// Row of the largest force from the last row before a crack on; `None` without cracks.
+fn strongest(curve: &Curve) -> Option<usize> {
+    let first = curve.column("cracks").iter().position(|cracks| *cracks > 0.0)?.saturating_sub(1);
+    peak(curve.column("force").get(first..)?).map(|row| first + row)
 }
 
 impl Recipe for Crush {
@@ -92,7 +100,8 @@ impl Recipe for Crush {
     }
 
     fn tables(&self, of: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
-        [("upper", force_on("upper"))].into_iter().chain(common(of.sample)).collect()
+        let walls = ["lower", "upper"].map(|name| (name, force_on(name)));
+        walls.into_iter().chain(common(of.sample)).collect()
     }
 
     fn curve(&self, of: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
@@ -104,21 +113,34 @@ impl Recipe for Crush {
             .with("time", "s", times.clone())
             .with("displacement", "m", shift.iter().map(|shift| -shift).collect())
             .with("force", "N", force.clone())
+            .with("lower_force", "N", tables.column("lower", "fz")?.iter().map(|f| -f).collect())
             .with("stress", "Pa", force.iter().map(|f| f / (height * height)).collect());
         tables.finish(curve, &times)
     }
 
     fn values(&self, of: &Context, curve: &Curve) -> Vec<Value> {
-        let force = curve.column("force");
-        let Some(top) = peak(force) else { return Vec::new() };
+        let top = strongest(curve);
+        let there = |column: &str| top.map_or(f64::NAN, |top| curve.column(column)[top]);
         let value = |name, unit, value| Value { name, unit, value };
         vec![
-            value("strength", "Pa", curve.column("stress")[top]),
-            value("force", "N", force[top]),
+            value("strength", "Pa", there("stress")),
+            value("force", "N", there("force")),
             value("height", "m", height(of)),
-            value("displacement_at_strength", "m", curve.column("displacement")[top]),
-            value("cracks_at_strength", "", curve.column("cracks")[top]),
+            value("displacement_at_strength", "m", there("displacement")),
+            value("cracks_at_strength", "", there("cracks")),
         ]
+    }
+
+    fn warnings(&self, of: &Context, curve: &Curve) -> Vec<String> {
+        let Some(top) = strongest(curve) else {
+            let way = curve.column("displacement").last().copied().unwrap_or(0.0);
+            return vec![format!(
+                "no bond has broken when the plate has moved {way:.2e} m, so the stone has no strength: it turned between the plates, or --strain must be larger (now {})",
+                of.request.strain.unwrap_or(END)
+            )];
+        };
+        let speed = of.request.speed_of_plate(&of.sample.grains);
+        uneven(curve, ["force", "lower_force"], "N", top, speed).into_iter().collect()
     }
 
     fn axes(&self) -> (&'static str, &'static [&'static str]) {

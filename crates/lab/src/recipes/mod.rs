@@ -8,6 +8,7 @@ mod direct_shear;
 mod drum;
 mod heap;
 mod oedometer;
+mod plates;
 mod repose;
 mod text;
 mod triaxial;

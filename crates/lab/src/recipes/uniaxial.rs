@@ -9,8 +9,9 @@
 //! taken as it is; A is then the area of its outline from above.
 
 use super::boxes::{height, settling};
+use super::plates::{on_the_way, uneven};
 use super::*;
-use crate::series::{at, peak, reaches};
+use crate::series::{at, peak};
 use crate::walls::{PLATE, SIDE};
 use std::f64::consts::PI;
 
@@ -18,8 +19,6 @@ pub struct Uniaxial;
 
 /// Axial strain at the end [–].
 const END: f64 = 0.02;
-/// Difference of the stresses on both plates over the larger one, from which a test is too fast [–].
-const UNEVEN: f64 = 0.1;
 /// Share of the test in which the plate gets up to speed [–].
 const RAMP: f64 = 0.1;
 
@@ -59,11 +58,6 @@ fn outline(circles: impl Iterator<Item = (f64, f64, f64)>) -> f64 {
     hull.extend(half(&mut points.iter().rev().copied()));
     let next = hull.iter().cycle().skip(1);
     0.5 * hull.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>()
-}
-
-/// Where a stress has come this share of the way from its first value to its largest one, in row `top`.
-fn on_the_way(stress: &[f64], top: usize, share: f64) -> Option<(usize, f64)> {
-    reaches(stress, stress[0] + share * (stress[top] - stress[0]))
 }
 
 impl Recipe for Uniaxial {
@@ -156,7 +150,7 @@ impl Recipe for Uniaxial {
 
     fn test(&self, of: &Context, prepared: &Prepared) -> Result<Part> {
         let height = height(of, prepared);
-        let speed = of.request.speed_on_bonds(&of.sample.grains);
+        let speed = of.request.speed_of_plate(&of.sample.grains);
         let time = of.request.strain.unwrap_or(END) * height / speed;
         let ramp = RAMP * time;
         let until = time + 0.5 * ramp;
@@ -220,22 +214,9 @@ impl Recipe for Uniaxial {
     }
 
     fn warnings(&self, of: &Context, curve: &Curve) -> Vec<String> {
-        let stress = curve.column("stress");
-        let half = peak(stress).and_then(|top| on_the_way(stress, top, 0.5));
-        let Some([upper, lower]) =
-            half.map(|half| ["stress", "lower_stress"].map(|name| at(curve.column(name), half)))
-        else {
-            return Vec::new();
-        };
-        let uneven = (upper - lower).abs() / upper.max(lower);
-        let speed = of.request.speed_on_bonds(&of.sample.grains);
-        let words = || {
-            format!(
-                "at half the strength the upper plate bears {upper:.3e} Pa and the lower one {lower:.3e} Pa: the test is too fast for its values to be those of a slow one: use --speed {:.2e} or less (now {speed:.2e} m/s)",
-                speed * 0.5 * UNEVEN / uneven
-            )
-        };
-        if uneven > UNEVEN { vec![words()] } else { Vec::new() }
+        let speed = of.request.speed_of_plate(&of.sample.grains);
+        let top = peak(curve.column("stress"));
+        top.and_then(|top| uneven(curve, ["stress", "lower_stress"], "Pa", top, speed)).into_iter().collect()
     }
 
     fn axes(&self) -> (&'static str, &'static [&'static str]) {
@@ -246,14 +227,6 @@ impl Recipe for Uniaxial {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// A core that was pressed together begins at 0.4 of its strength.
-    #[test]
-    fn a_stress_that_begins_high_has_a_quarter_of_its_way() {
-        let (row, share) = on_the_way(&[4.0, 5.0, 9.0, 10.0, 3.0], 3, 0.25).unwrap();
-        assert!(row == 2 && (share - 0.125).abs() < 1e-12);
-        assert_eq!(on_the_way(&[4.0, 3.0], 0, 0.25), None);
-    }
 
     #[test]
     fn the_outline_of_circles() {
