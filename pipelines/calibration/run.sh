@@ -91,3 +91,11 @@ calibrate "$here/karlsruhe.toml" --jobs "$jobs" --dir "$out/karlsruhe" -q --plot
 # Sinter in the sinter box: one slope of an experiment whose frictions and mouth are not known.
 calibrate "$here/sinter-box.toml" --jobs "$jobs" --dir "$out/sinter-box" -q --plot "$docs/calibration-sinter.png" --words "$out/sinter-box.md" -o "$out/sinter-box.csv"
 "$here/../stages/section.sh" "$page" sinter-box < "$out/sinter-box.md"
+
+# Soil and stones together, small.
+whole="soil_friction=0.6 soil_strength=8e4 stone_friction=0.4 rock_strength=8e5"
+# shellcheck disable=SC2086
+JOBS=$jobs "$here/whole.sh" "$out/whole" $whole
+cp "$out/whole/fit.png" "$docs/calibration-whole.png"
+compared "$whole" "$out/whole/found.csv" > "$out/whole.md"
+"$here/../stages/section.sh" "$page" whole < "$out/whole.md"

@@ -292,8 +292,11 @@ fn motion(Source { setup, arrivals, bonds, .. }: &Source) -> String {
 fn tail(scene: &Scene, schedule: &Schedule, asked: &Asked, rigid: bool) -> String {
     let Schedule { dt, last, every, .. } = schedule;
     let report = (last / 200).max(1);
-    // A temperature would need more degrees of freedom than two bodies have.
-    let energy = if rigid { "atoms" } else { "ke" };
+    // A temperature would need more degrees of freedom than two bodies have. Wall spheres are heavy: the energy of those that move would hide all other.
+    let (energy, column) = match rigid {
+        true => ("", "atoms"),
+        false => ("compute energy grains ke\n", "c_energy"),
+    };
     let keep = scene.keys.output.checkpoint.map_or(*last as f64 / KEPT, |s| s / dt).clamp(1.0, *last as f64);
     let (keep, [a, b], loads, columns) = (keep.round(), STATES, asked.commands(), asked.of_frames());
     let stems = DUMPS.iter().filter(|dump| asked.has(dump)).map(|dump| dump.trim_end_matches(".dump"));
@@ -309,7 +312,7 @@ fn tail(scene: &Scene, schedule: &Schedule, asked: &Asked, rigid: bool) -> Strin
          {turned}dump frames grains custom 1 ${{frames}} {columns}\n\
          dump_modify frames every v_next first ${{first}} flush yes format float %.17g\n\
          {loads}\n\
-         thermo {report}\nthermo_style custom step {energy}\nthermo_modify lost error flush yes\n\
+         {energy}thermo {report}\nthermo_style custom step {column}\nthermo_modify lost error flush yes\n\
          # states, in turn: lmp -in run.in -var state {a}{parts} goes on from one\n\
          variable keep index {keep}\nif \"${{state}} == {a}\" then \"variable states string '{b} {a}'\" else \"variable states string '{a} {b}'\"\n\
          if \"${{keep}} > 0\" then \"restart ${{keep}} ${{states}}\"\nrun {last} upto\n\
