@@ -60,12 +60,18 @@ impl Field {
         })
     }
 
-    /// Signed distance at a place [px]: linear between samples. Where a stone that the frame cuts may go on, infinite.
+    /// Signed distance at a place [px]: linear between samples. Beyond the frame a stone that it cuts may be anywhere: above 0 there, and
+    /// growing with the distance to the frame, so that the value is a lower bound of the distance to what the mask excludes.
     pub fn at(&self, x: f64, y: f64) -> f64 {
-        let inside = |p: f64, size: f64| p >= 0.0 && p <= size - 1.0;
-        if self.cut && !(inside(x, self.frame[0]) && inside(y, self.frame[1])) {
-            return f64::INFINITY;
+        let [u, v] = [(x, self.frame[0]), (y, self.frame[1])].map(|(p, size)| p.clamp(0.0, size - 1.0));
+        let beyond = (x - u).hypot(y - v);
+        if self.cut && beyond > 0.0 {
+            return self.within(u, v).max(0.0) + beyond;
         }
+        self.within(x, y)
+    }
+
+    fn within(&self, x: f64, y: f64) -> f64 {
         let (u, v) = ((x - self.origin[0]) / self.step, (y - self.origin[1]) / self.step);
         let (a, b) = (u.clamp(0.0, self.width as f64 - 1.001), v.clamp(0.0, self.height as f64 - 1.001));
         let (i, j) = (a as usize, b as usize);
@@ -222,7 +228,10 @@ mod tests {
     #[test]
     fn beyond_the_frame_a_cut_stone_may_go_on() {
         let cut = Field::new(&disc(60, [10.0, 30.0], 15.0), 1000).unwrap();
-        assert_eq!(cut.at(-3.0, 30.0), f64::INFINITY);
+        assert!(cut.at(-3.0, 30.0) > 3.0 + cut.at(0.0, 30.0) - 1e-9);
+        // The mask excludes the place on the frame at 5 pixels beside it.
+        assert!(cut.at(0.0, 58.0) < -5.0);
+        assert!((cut.at(-5.0, 58.0) - 5.0).abs() < 1e-9, "{}", cut.at(-5.0, 58.0));
         assert!(cut.at(2.0, 30.0) > 5.0 && cut.at(40.0, 30.0) < 0.0);
         let whole = Field::new(&disc(60, [30.0, 30.0], 15.0), 1000).unwrap();
         assert!(whole.at(-3.0, 30.0) < -10.0);

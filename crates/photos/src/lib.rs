@@ -12,6 +12,7 @@
 //! poses       COLMAP's text files, tables of matrices
 //! hull        what no silhouette excludes
 //! coherence   whether silhouettes agree, and how poses are refined until they do
+//! adjusted    a turntable whose numbers are a little wrong
 //! turned      a stone that was turned over
 //! refine      from the hull inwards, by correlation of photographs
 //! rendered    photographs of a mesh, for tests and trials
@@ -20,6 +21,7 @@
 //!
 //! Pixel (0, 0) has its centre at (0, 0); x runs to the right and y down, in pixels.
 
+pub mod adjusted;
 pub mod camera;
 pub mod coherence;
 pub mod contour;

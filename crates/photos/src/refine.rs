@@ -2,8 +2,11 @@
 //!
 //! ```text
 //! o* = argmax over o of  mean NCC of the patch around x − o n, as the photographs show it       x on the surface, n its normal
-//! u  = argmin  Σ w (u − o*)² + λ Σ over edges (u_i − u_j)²                                     w = max(0, NCC − ½)²
+//! u  = argmin  Σ w (u − o*)² + λ Σ over edges (u_i − u_j)²                                     w = max(0, NCC − 0.6)²
 //! ```
+//!
+//! NCC at an offset is averaged over the neighbours on the surface first: where a patch has few speckles it is high at some wrong offsets, but
+//! not at the same ones beside it. Most offsets are inwards, so that a wrong one takes something off the stone.
 //!
 //! The patch is a square in the plane across n; the most frontal photograph that sees x is compared with others some degrees beside it. NCC is the
 //! normalized correlation of light, as in Furukawa & Ponce (2010), doi:10.1109/TPAMI.2009.161. The moved surface is closed again by its winding
@@ -38,9 +41,13 @@ const SMOOTH: f64 = 0.05;
 /// Passes of the smoothing.
 const PASSES: usize = 60;
 /// Correlations that count.
-const LEAST: f64 = 0.5;
+const LEAST: f64 = 0.6;
+
 /// A correlation must be better than that of the surface by this for it to move.
-const MARGIN: f64 = 0.05;
+const MARGIN: f64 = 0.08;
+/// Times that correlations are averaged over neighbours.
+const SHARED: usize = 6;
+
 /// Rounds; each sees the surface of the one before.
 const ROUNDS: usize = 3;
 
@@ -64,13 +71,16 @@ pub fn refine(hull: &TriMesh, shots: &[Shot], cells: usize, done: impl Fn(usize)
         let seen: Vec<Vec<bool>> = shots.par_iter().map(|s| visible(&mesh, s, step)).collect();
         let of = |v: usize| {
             let shots: Vec<&Shot> = (0..shots.len()).filter(|k| seen[*k][v]).map(|k| &shots[k]).collect();
-            best(&mesh.vertices[v], &normals[v], &shots, step / 2.0)
+            curve(&mesh.vertices[v], &normals[v], &shots, step)
         };
-        let found: Vec<Option<(f64, f64)>> = (0..mesh.vertices.len()).into_par_iter().map(of).collect();
+        let curves: Vec<Option<Curve>> = (0..mesh.vertices.len()).into_par_iter().map(of).collect();
+        let beside = neighbours(&mesh);
+        let found: Vec<Option<(f64, f64)>> =
+            shared(curves, &beside).iter().map(|c| c.as_ref().and_then(|c| best(c, step / 2.0))).collect();
         let agreed: Vec<f64> = found.iter().flatten().map(|f| f.1).collect();
         refinement.agreed = agreed.len() as f64 / found.len() as f64;
         refinement.correlation = agreed.iter().sum::<f64>() / agreed.len().max(1) as f64;
-        let moves = smoothed(&mesh, &found);
+        let moves = smoothed(&beside, &found);
         for (v, p) in mesh.vertices.iter_mut().enumerate() {
             *p -= normals[v] * moves[v];
             // Back into the hull.
@@ -121,11 +131,55 @@ fn visible(mesh: &TriMesh, shot: &Shot, step: f64) -> Vec<bool> {
     mesh.vertices.iter().map(of).collect()
 }
 
-/// The best offset inwards [m], and its correlation; `None` where photographs do not agree.
-fn best(place: &Vec3, normal: &Vec3, shots: &[&Shot], delta: f64) -> Option<(f64, f64)> {
+/// Correlations at the offsets that are tried, the farthest outwards first.
+type Curve = [f64; (OUTWARDS + INWARDS + 1) as usize];
+
+/// Correlations of a vertex; `None` where no two photographs see it.
+fn curve(place: &Vec3, normal: &Vec3, shots: &[&Shot], step: f64) -> Option<Curve> {
     let chosen = patch::chosen(place, normal, shots)?;
-    let score = |k: i32| patch::correlation(&(place - normal * (f64::from(k) * delta)), normal, &chosen);
-    let all: Vec<f64> = (-OUTWARDS..=INWARDS).map(|k| score(k).unwrap_or(-1.0)).collect();
+    let mut all = [0.0; (OUTWARDS + INWARDS + 1) as usize];
+    let mut known = false;
+    for (value, k) in all.iter_mut().zip(-OUTWARDS..=INWARDS) {
+        let at = place - normal * (f64::from(k) * step / 2.0);
+        if let Some(score) = patch::correlation(&at, normal, &chosen) {
+            (*value, known) = (score, true);
+        }
+    }
+    known.then_some(all)
+}
+
+/// Vertices beside each vertex.
+fn neighbours(mesh: &TriMesh) -> Vec<Vec<u32>> {
+    let mut beside: Vec<Vec<u32>> = vec![Vec::new(); mesh.vertices.len()];
+    for &[a, b, c] in &mesh.faces {
+        for (v, w) in [(a, b), (b, c), (c, a)] {
+            beside[v as usize].push(w);
+        }
+    }
+    beside
+}
+
+/// Means of correlations over neighbours: a chance agreement is at another offset there.
+fn shared(mut curves: Vec<Option<Curve>>, beside: &[Vec<u32>]) -> Vec<Option<Curve>> {
+    for _ in 0..SHARED {
+        curves = (0..curves.len())
+            .into_par_iter()
+            .map(|v| {
+                let mut sum = curves[v]?;
+                let mut count = 1.0;
+                for near in beside[v].iter().filter_map(|w| curves[*w as usize]) {
+                    sum.iter_mut().zip(near).for_each(|(s, n)| *s += n);
+                    count += 1.0;
+                }
+                Some(sum.map(|s| s / count))
+            })
+            .collect();
+    }
+    curves
+}
+
+/// The best offset inwards [m], and its correlation; `None` where photographs do not agree.
+fn best(all: &Curve, delta: f64) -> Option<(f64, f64)> {
     let top = (0..all.len()).max_by(|a, b| all[*a].total_cmp(&all[*b]))?;
     // Where the surface is right by a small margin it stays: most of a hull is right.
     let here = all[OUTWARDS as usize];
@@ -143,13 +197,7 @@ fn best(place: &Vec3, normal: &Vec3, shots: &[&Shot], delta: f64) -> Option<(f64
 }
 
 /// Offsets of all vertices from those that are known.
-fn smoothed(mesh: &TriMesh, found: &[Option<(f64, f64)>]) -> Vec<f64> {
-    let mut beside: Vec<Vec<u32>> = vec![Vec::new(); mesh.vertices.len()];
-    for &[a, b, c] in &mesh.faces {
-        for (v, w) in [(a, b), (b, c), (c, a)] {
-            beside[v as usize].push(w);
-        }
-    }
+fn smoothed(beside: &[Vec<u32>], found: &[Option<(f64, f64)>]) -> Vec<f64> {
     // Of a vertex and its neighbours the middle one: single wrong offsets go.
     let middle = |v: usize| {
         let all = beside[v].iter().map(|w| *w as usize).chain([v]).filter_map(|w| found[w]);

@@ -158,6 +158,13 @@ impl Turntable {
         Ok(places)
     }
 
+    /// The place of a photograph on another turntable: the same number in its ring.
+    pub fn place_on(&self, other: &Turntable, place: &Place) -> Place {
+        let (from, to) = (&self.ring[place.ring], &other.ring[place.ring]);
+        let number = (place.angle_deg - from.start_deg) / from.step_deg;
+        Place { angle_deg: to.start_deg + number * to.step_deg, ..*place }
+    }
+
     /// The camera of a photograph of `width` × `height` pixels, in the frame of the table.
     pub fn camera(&self, place: &Place, width: usize, height: usize) -> Camera {
         let [w, h] = self.camera.size_px.unwrap_or([width as f64, height as f64]);

@@ -84,3 +84,43 @@ fn a_hollow_comes_out_by_correlation() {
     assert!(depth(&hull) > depth(&mesh) + 0.01, "the hull fills the bowl");
     assert!((depth(&found) - depth(&mesh)).abs() < 0.002);
 }
+
+/// The frame cuts the stone on half of the photographs, which know nothing of what is beyond it: the hull of all still encloses the stone, and is
+/// smaller than that of the others.
+#[test]
+fn a_stone_that_the_frame_cuts_is_carved_only_where_it_is_seen() {
+    let mesh = stone();
+    let whole = views(&mesh, &ring(8, 35.0));
+    let cut = |camera: &photos::Camera| {
+        let camera = photos::Camera { centre: [30.0, 100.0], ..*camera };
+        let mask = photos::rendered::silhouette(&mesh, &camera, support::SIZE[0], support::SIZE[1]);
+        assert!(mask.on_frame() > 30);
+        View { camera, field: Field::new(&mask, 1000).unwrap().into() }
+    };
+    let all = [whole.clone(), ring(16, 0.0).iter().map(cut).collect()].concat();
+    let (less, more) = (hull(&whole, 60).unwrap().0, hull(&all, 60).unwrap().0);
+    let checked = Stone::new(&more, false).unwrap();
+    let outside = |v: &Vec3| if checked.inside.contains(v) { 0.0 } else { checked.inside.distance(v) };
+    let most = mesh.vertices.iter().map(outside).fold(0.0, f64::max);
+    assert!(most < 0.0025, "a vertex of the stone is {most} m outside");
+    assert!(more.volume() < 0.97 * less.volume(), "{} {}", more.volume(), less.volume());
+}
+
+/// A view that did not carve agrees with the hull, unless its camera is wrong.
+#[test]
+fn a_photograph_that_did_not_carve_tells_a_wrong_pose() {
+    let mesh = stone();
+    let (held_out, carve): (Vec<_>, Vec<_>) =
+        views(&mesh, &ring(24, 20.0)).into_iter().enumerate().partition(|(k, _)| k % 3 == 2);
+    let carve: Vec<View> = carve.into_iter().map(|v| v.1).collect();
+    let (found, _) = hull(&carve, 60).unwrap();
+    for (_, view) in held_out {
+        let union = view.agreement(&found).union;
+        let moved = View {
+            camera: view.camera.after(&nalgebra::Matrix3::identity(), &Vec3::new(0.0, 0.0, 0.004)),
+            ..view
+        };
+        let wrong = moved.agreement(&found).union;
+        assert!(union > 0.92 && wrong < union - 0.02, "{union} {wrong}");
+    }
+}

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "The hull holds the stone and does not enter its hollows: its volume is an upper bound, unless --refine finds them.\n\nExamples:\n\
     \x20 stone-hull photographs --masks masks --turntable turntable.toml --refine -o stone.ply\n\
-    \x20 stone-hull photographs --masks masks --poses poses.txt --length 0.12 -o stone.ply";
+    \x20 stone-hull photographs --masks masks --poses poses.txt --length 0.12 -o stone.ply\n\
+    \x20 stone-hull photographs --masks masks --poses poses.txt --hold-out 3 --report agreement.json -o stone.ply";
 
 /// Carve the visual hull of a stone from the masks of its photographs
 #[derive(Parser)]
@@ -21,6 +22,9 @@ pub struct Args {
     /// Turntable: camera, and turns with their tilts and steps (TOML, docs/photographs.md)
     #[arg(long, value_name = "FILE.toml")]
     pub turntable: Option<PathBuf>,
+    /// Change focal length, axis, tilts and steps of --turntable a little until the silhouettes agree
+    #[arg(long, requires = "turntable")]
+    pub adjust: bool,
     /// Poses: a table of a name and twelve numbers (3 × 4 matrix, row by row) a line, a folder with one matrix for each photograph, or COLMAP's folder with cameras.txt and images.txt
     #[arg(long, value_name = "FILE|DIR")]
     pub poses: Option<PathBuf>,
@@ -36,6 +40,9 @@ pub struct Args {
     /// Move the surface inwards to where the photographs agree: hollows that no silhouette shows; needs speckle
     #[arg(long)]
     pub refine: bool,
+    /// Every Nth photograph does not carve: the mesh is compared with its mask, which tells how well it fits what it was not made from
+    #[arg(long, value_name = "N", value_parser = every)]
+    pub hold_out: Option<usize>,
     #[command(flatten)]
     pub output: cli::Output,
 }
@@ -52,4 +59,11 @@ fn cells(text: &str) -> Result<usize, String> {
         .ok()
         .filter(|n| (8..=600).contains(n))
         .ok_or_else(|| "give a number from 8 to 600".to_owned())
+}
+
+fn every(text: &str) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|n| (2..=1000).contains(n))
+        .ok_or_else(|| "give a number from 2 to 1000".to_owned())
 }

@@ -1,6 +1,8 @@
 //! Carves the visual hull of a stone from the masks of its photographs.
 
 mod args;
+mod held_out;
+mod on_turntable;
 mod poses;
 mod refined;
 mod views;
@@ -29,6 +31,7 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
     } else {
         None
     };
+    let held_out = held_out::compared(&found, &mesh);
     let closed = Stone::new(&mesh, true).context("the hull")?;
     let length = ShapeMeasures::of(&closed).sides[0];
     let factor = args.length.map_or(1.0, |wanted| wanted / length);
@@ -38,7 +41,10 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
     mesh::write_ply(&mut out, &mesh, &says, Encoding::BinaryLittleEndian)?;
     out.commit()?;
     words::scale(&args, length);
-    Ok(Report::new(words::summary(&mesh, &agreement, &found, refinement.as_ref()))
+    let mut summary = words::summary(&mesh, &agreement, &found, refinement.as_ref());
+    summary += &held_out::words(&held_out);
+    summary += found.adjusted.as_ref().map_or("", |a| &a.words);
+    Ok(Report::new(summary)
         .with("photographs", &found.names)
         .with("upper_bound", !args.refine)
         .with("refinement", refinement)
@@ -48,5 +54,7 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
         .with("cells", args.cells)
         .with("step", samples.step * factor)
         .with("turned_over", found.aligned)
-        .with("agreement", agreement.iter().map(|a| a.union).collect::<Vec<_>>()))
+        .with("agreement", agreement.iter().map(|a| a.union).collect::<Vec<_>>())
+        .with("held_out", held_out)
+        .with("adjusted", found.adjusted.map(|a| a.table)))
 }

@@ -1,9 +1,9 @@
 //! Photographs, masks and cameras become views.
 
 use crate::args::Args;
-use crate::poses;
+use crate::{on_turntable, poses};
 use anyhow::Context;
-use photos::{Alignment, Camera, Field, Mask, Turntable, View, align, photograph};
+use photos::{Camera, Field, Mask, Turntable, View, photograph};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -11,15 +11,25 @@ use std::path::{Path, PathBuf};
 const SAMPLES: usize = 900;
 /// Masks in memory at a time, at most.
 const AT_ONCE: usize = 8;
-/// Hulls of two places that overlap by less than this are doubtful.
-const OVERLAP: f64 = 0.85;
 
 /// All views in one frame.
 pub struct Found {
+    /// Photographs that carve.
     pub names: Vec<String>,
+    /// Their views.
     pub views: Vec<View>,
+    /// Photographs that do not carve.
+    pub held_out: Vec<(String, View)>,
     /// How the second place of the stone was found: overlap, and residual [m].
     pub aligned: Option<[f64; 2]>,
+    /// The turntable that --adjust has found.
+    pub adjusted: Option<Adjusted>,
+}
+
+/// A turntable that silhouettes have changed, and what is said of it.
+pub struct Adjusted {
+    pub table: Turntable,
+    pub words: String,
 }
 
 /// Names of the photographs of a folder, sorted.
@@ -34,72 +44,45 @@ pub fn names(folder: &Path) -> anyhow::Result<Vec<String>> {
 }
 
 /// A mask as a distance field, and the size of its photograph.
-type Silhouette = (Field, [usize; 2]);
+pub type Silhouette = (Field, [usize; 2]);
 
 /// Reads masks and cameras; a stone that was turned over is laid back.
 pub fn read(args: &Args, names: &[String]) -> anyhow::Result<Found> {
     match (&args.turntable, &args.poses) {
-        (Some(file), _) => on_turntable(args, names, file),
+        (Some(file), _) => on_turntable::read(args, names, file),
         (None, Some(path)) => posed(args, names, path),
         (None, None) => Err(cli::usage("give --turntable or --poses")),
     }
 }
 
-fn on_turntable(args: &Args, names: &[String], file: &Path) -> anyhow::Result<Found> {
-    let text =
-        std::fs::read_to_string(file).with_context(|| format!("{}: cannot read it", file.display()))?;
-    let table = Turntable::parse(&text).with_context(|| file.display().to_string())?;
-    let places = table.places(names).with_context(|| file.display().to_string())?;
-    let used: Vec<String> = places.iter().map(|p| names[p.photograph].clone()).collect();
-    if used.len() < names.len() {
-        let other = names.iter().find(|n| !used.contains(n)).map_or("", String::as_str);
-        cli::warn(&format!("{} photographs are in no [[ring]], such as {other}", names.len() - used.len()));
-    }
-    let (mut first, mut second, mut order) = ((Vec::new(), Vec::new()), Vec::new(), Vec::new());
-    for ((place, name), silhouette) in places.iter().zip(&used).zip(silhouettes(args, &used)?) {
-        let Some((field, [w, h])) = silhouette else { continue };
-        let view = View { camera: table.camera(place, w, h), field: field.into() };
-        if table.ring[place.ring].turned_over {
-            second.push(view);
-            order.push(name.clone());
-        } else {
-            first.0.push(view);
-            first.1.push(name.clone());
-        }
-    }
-    let (mut views, mut kept) = first;
-    if views.is_empty() {
-        anyhow::bail!(
-            "{}: every [[ring]] is turned_over: leave it out where the stone lay as at first",
-            file.display()
-        );
-    }
-    if second.is_empty() {
-        cli::warn(
-            "the stone lay on one side only, which no photograph sees: turn it over and photograph it again for a smaller hull (turned_over = true)",
-        );
-        return Ok(Found { names: kept, views, aligned: None });
-    }
-    let found = align(&views, &second).context("the stone turned over")?;
-    doubt(&found);
-    views.extend(found.place.views(&second));
-    kept.extend(order);
-    Ok(Found { names: kept, views, aligned: Some([found.overlap, found.residual]) })
+/// Photographs that carve, and those that --hold-out leaves out, by name.
+pub struct Parted<T> {
+    pub carve: Vec<(String, T)>,
+    pub held_out: Vec<(String, T)>,
 }
 
-/// Warns of two places that do not fit.
-fn doubt(found: &Alignment) {
-    let percent = |x: f64| geom::Shown((1000.0 * x).round() / 10.0);
-    if found.overlap < OVERLAP {
-        cli::warn(&format!(
-            "the hulls of both places of the stone overlap by {} % only: check turned_over, and that it is the same stone",
-            percent(found.overlap)
-        ));
+impl<T> Parted<T> {
+    /// Every Nth photograph is held out.
+    pub fn new(args: &Args, all: Vec<(String, T)>) -> anyhow::Result<Parted<T>> {
+        let (mut carve, mut held_out) = (Vec::new(), Vec::new());
+        if let Some(every) = args.hold_out.filter(|every| all.len() < *every) {
+            return Err(cli::usage(format!(
+                "--hold-out: {every} is more than the {} photographs that have a mask{}: give a smaller number",
+                all.len(),
+                if args.turntable.is_some() { " before or after the stone was turned over" } else { "" }
+            )));
+        }
+        for (k, named) in all.into_iter().enumerate() {
+            let held = args.hold_out.is_some_and(|every| (k + 1) % every == 0);
+            if held { &mut held_out } else { &mut carve }.push(named);
+        }
+        Ok(Parted { carve, held_out })
     }
-    if found.other < 1.5 * found.residual {
-        cli::warn(
-            "the stone fits in two orientations almost equally well: check the result, or photograph it on a third side",
-        );
+
+    /// Something else of each photograph.
+    pub fn map<U>(self, of: impl Fn(T) -> U) -> Parted<U> {
+        let all = |named: Vec<(String, T)>| named.into_iter().map(|(name, one)| (name, of(one))).collect();
+        Parted { carve: all(self.carve), held_out: all(self.held_out) }
     }
 }
 
@@ -123,15 +106,16 @@ fn posed(args: &Args, names: &[String], path: &Path) -> anyhow::Result<Found> {
         let other = names.iter().find(|n| pose(n).is_none()).map_or("", String::as_str);
         cli::warn(&format!("{} photographs have no pose, such as {other}", names.len() - used.len()));
     }
-    let (mut views, mut kept) = (Vec::new(), Vec::new());
+    let mut all = Vec::new();
     for (name, silhouette) in used.iter().zip(silhouettes(args, &used)?) {
         let (Some((field, size)), Some(pose)) = (silhouette, pose(name)) else { continue };
         let camera = resized(&pose.camera, pose.size.or(args.poses_size).unwrap_or(size), size)
             .with_context(|| name.clone())?;
-        views.push(View { camera, field: field.into() });
-        kept.push(name.clone());
+        all.push((name.clone(), View { camera, field: field.into() }));
     }
-    Ok(Found { names: kept, views, aligned: None })
+    let parted = Parted::new(args, all)?;
+    let (names, views) = parted.carve.into_iter().unzip();
+    Ok(Found { names, views, held_out: parted.held_out, aligned: None, adjusted: None })
 }
 
 /// The camera for a mask of another size than it was made for.
@@ -150,7 +134,7 @@ fn resized(camera: &Camera, from: [usize; 2], to: [usize; 2]) -> anyhow::Result<
 }
 
 /// The masks of some photographs; none where a mask is missing or empty, which a warning says.
-fn silhouettes(args: &Args, names: &[String]) -> anyhow::Result<Vec<Option<Silhouette>>> {
+pub fn silhouettes(args: &Args, names: &[String]) -> anyhow::Result<Vec<Option<Silhouette>>> {
     let progress = cli::Progress::new("masks", names.len() as u64);
     let mut all = Vec::with_capacity(names.len());
     for some in names.chunks(AT_ONCE) {

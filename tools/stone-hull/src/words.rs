@@ -4,6 +4,8 @@ use crate::args::Args;
 use crate::views::Found;
 use geom::Shown;
 use geom::mesh::TriMesh;
+use photos::Turntable;
+use photos::adjusted::Adjustment;
 use photos::hull::Agreement;
 use photos::refine::Refinement;
 use rayon::prelude::*;
@@ -34,7 +36,8 @@ pub fn check(found: &Found, mesh: &TriMesh) -> Vec<Agreement> {
     all
 }
 
-fn percent(share: f64) -> Shown {
+/// A share in percent, to a tenth.
+pub fn percent(share: f64) -> Shown {
     Shown((1000.0 * share).round() / 10.0)
 }
 
@@ -46,6 +49,34 @@ pub fn scale(args: &Args, length: f64) {
             Shown(length)
         ));
     }
+}
+
+/// What --adjust has changed.
+pub fn adjusted(from: &Turntable, to: &Turntable, done: &Adjustment) -> String {
+    let shown = |value: f64| Shown((1000.0 * value).round() / 1000.0);
+    let mut changes = Vec::new();
+    let mut change = |name: &str, a: f64, b: f64, unit: &str| {
+        if (b - a).abs() > 1e-3 {
+            changes.push(format!("{name} {} → {}{unit}", shown(a), shown(b)));
+        }
+    };
+    change("focal length", from.camera.focal_px, to.camera.focal_px, " px");
+    if let (Some([w, h]), Some([x, y])) = (to.camera.size_px, to.camera.centre_px) {
+        let [u, v] = from.camera.centre_px.unwrap_or([(w - 1.0) / 2.0, (h - 1.0) / 2.0]);
+        change("axis at x", u, x, " px");
+        change("centre at y", v, y, " px");
+    }
+    for (k, (a, b)) in from.ring.iter().zip(&to.ring).enumerate() {
+        let name = |key: &str| format!("[[ring]] {}: {key}", k + 1);
+        change(&name("tilt"), a.tilt_deg, b.tilt_deg, "°");
+        change(&name("step"), a.step_deg, b.step_deg, "°");
+        change(&name("start"), a.start_deg, b.start_deg, "°");
+    }
+    format!(
+        "; adjusted: {}, after which rays along silhouettes miss the hull by {} % of what they did",
+        if changes.is_empty() { "nothing".to_owned() } else { changes.join(", ") },
+        percent(done.after / done.before)
+    )
 }
 
 /// The comment of the file.

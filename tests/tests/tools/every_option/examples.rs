@@ -134,6 +134,7 @@ pub const EXAMPLES: &[&str] = &[
     "stone-hull photographs --masks masks --turntable turntable.toml --cells 20 --length 0.06 -o hull.ply --report r.json --threads 2 -q",
     "stone-hull photographs --masks masks --poses poses.txt --poses-size 64x48 --output hull2.ply --cells 16 --quiet",
     "stone-hull photographs --masks masks --poses matrices --cells 16 --refine -o hull3.ply",
+    "stone-hull photographs --masks masks --turntable turntable.toml --cells 16 --hold-out 3 --adjust -o hull4.ply",
     "stone-clean library/rock_1_1.ply --scale 2 --faces 200 --cells 20 -o clean.ply --report r.json --threads 2 -q",
     "stone-clean tetra.ply --units mm --output clean2.ply --quiet",
     "stone-library pebble.ply --scale 1 --variants 2 --sieves 0.01,0.1 --seed 3 -o rocks --report r.json --threads 2 -q",

@@ -75,6 +75,10 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-run s.toml --explain --check", "--check: --explain checks the scene as well: leave it out"),
     ("dem-view flat.xyz -o v.pvd --range 0,1", "--range changes nothing in .pvd"),
     (
+        "stone-hull photographs --masks drawn --poses poses.txt --hold-out 2 -o h.ply",
+        "--hold-out: 2 is more than the 1 photographs that have a mask: give a smaller number",
+    ),
+    (
         "stone-library pebble.ply -o rocks --seed 3",
         "--seed: a library without --variants leaves nothing to chance",
     ),
