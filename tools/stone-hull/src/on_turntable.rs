@@ -13,6 +13,8 @@ const OVERLAP: f64 = 0.85;
 
 /// Photographs of one side of the stone.
 type Side = Parted<Turned>;
+/// The same, by name, before some are held out.
+type Named = Vec<(String, Turned)>;
 
 pub fn read(args: &Args, names: &[String], file: &Path) -> anyhow::Result<Found> {
     let (table, [first, second]) = sides(args, names, file)?;
@@ -48,11 +50,7 @@ pub fn read(args: &Args, names: &[String], file: &Path) -> anyhow::Result<Found>
 }
 
 /// The turntable, and the photographs of both sides of the stone that have a mask.
-fn sides(
-    args: &Args,
-    names: &[String],
-    file: &Path,
-) -> anyhow::Result<(Turntable, [Vec<(String, Turned)>; 2])> {
+fn sides(args: &Args, names: &[String], file: &Path) -> anyhow::Result<(Turntable, [Named; 2])> {
     let text =
         std::fs::read_to_string(file).with_context(|| format!("{}: cannot read it", file.display()))?;
     let table = Turntable::parse(&text).with_context(|| file.display().to_string())?;

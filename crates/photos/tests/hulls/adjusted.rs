@@ -1,12 +1,10 @@
 //! Turntables with wrong numbers, from rendered silhouettes.
 
-mod support;
-
+use crate::support::{SIZE, stone};
 use photos::adjusted::{Turned, adjust};
 use photos::rendered::silhouette;
 use photos::turntable::Turntable;
 use photos::{Field, View, hull};
-use support::{SIZE, stone};
 
 /// Two rings of 16 photographs.
 fn table(focal: f64, centre: [f64; 2], tilts: [f64; 2], start: f64) -> Turntable {

@@ -1,5 +1,6 @@
 //! Hulls of rendered silhouettes against the stone.
 
+mod adjusted;
 mod support;
 
 use geom::Vec3;
