@@ -24,7 +24,7 @@ struct Trial {
     more: Vec<Call>,
 }
 
-/// A part of the cases: `options` or `keys`; both without a name. `only`: these options, also where they may change nothing.
+/// A part of the cases: `options` or `keys`; both without a name. `only`: these tools, or these options, also where they may change nothing.
 pub fn find(part: Option<&str>, one_in: usize, only: &[&str], found: &mut Findings) {
     if part != Some("keys") {
         options::find(one_in, only, found);

@@ -64,7 +64,7 @@ const VALUES: &[(&str, &str)] = &[
     ("--largest-particle", "10"),
 ];
 
-/// Runs every `one_in`-th case; `only` names options, those that may change nothing included.
+/// Runs every `one_in`-th case; `only` names tools, or options, those that may change nothing included.
 ///
 /// # Panics
 /// When an example fails.
@@ -74,7 +74,9 @@ pub fn find(one_in: usize, only: &[&str], found: &mut Findings) {
     let calls: Vec<Call> = examples::EXAMPLES.iter().map(|line| grammar.parse(line)).collect();
     let shop = shop(&calls);
     let mut bases: Vec<Call> = Vec::new();
-    let whole: Vec<Call> = calls.iter().filter_map(base).collect();
+    let (options, tools): (Vec<&str>, Vec<&str>) = only.iter().partition(|name| name.starts_with("--"));
+    let chosen = calls.iter().filter(|call| tools.is_empty() || tools.contains(&call.tool.as_str()));
+    let whole: Vec<Call> = chosen.filter_map(base).collect();
     let least: Vec<Call> = whole.par_iter().step_by(one_in).map(|call| reduced(&shop, call)).collect();
     for call in whole.into_iter().chain(least) {
         if !bases.contains(&call) {
@@ -82,7 +84,7 @@ pub fn find(one_in: usize, only: &[&str], found: &mut Findings) {
         }
     }
     let values = values(&calls);
-    let cases = bases.iter().flat_map(|base| trials(base, &values[&base.tool], only));
+    let cases = bases.iter().flat_map(|base| trials(base, &values[&base.tool], &options));
     run(&shop, cases.step_by(one_in).collect(), found);
 }
 
@@ -121,10 +123,12 @@ fn base(call: &Call) -> Option<Call> {
     Some(base)
 }
 
-/// The same with as few options as it needs.
+/// The same with as few options as it needs. A film keeps its size: with that of the default it would take as long as a hundred other calls.
 fn reduced(shop: &Shop, call: &Call) -> Call {
     let mut least = call.clone();
-    for (name, _) in call.options.iter().filter(|(name, _)| name != "-o") {
+    let film = call.value("-o").is_some_and(|file| file.ends_with(".gif") || file.ends_with(".mp4"));
+    let kept = |name: &str| name == "-o" || film && name == "--size";
+    for (name, _) in call.options.iter().filter(|(name, _)| !kept(name)) {
         let mut fewer = least.clone();
         fewer.options.retain(|o| o.0 != *name);
         if shop.answer(&fewer).code == 0 {
