@@ -7,7 +7,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 out=$1; seed=$2; shift 2
 mkdir -p "$out"
 cp "$here/pack.toml" "$here/crush.toml" "$out/"
-[ -e "$out/pack.mcap" ] || dem-run "$out/pack.toml" --set "fill.0.seed=$seed" --threads 1 -q -o "$out/pack.mcap"
+"$here/../once.sh" "$out/pack.mcap" dem-run "$out/pack.toml" --set "fill.0.seed=$seed" --threads 1 -q
 # Where the lid has come to rest.
 height=$(dem-measure "$out/pack.mcap" --wall-force all --wall lid -q |
     awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^shift_z/) at = k } { last = $at } END { printf "%.6g", 0.18 + last }')

@@ -24,7 +24,7 @@ slope() {
   # Several processes may share the folder; the others wait for a run, and then use it.
   exec 9>> "$run.lock"
   if command -v flock > /dev/null; then flock 9; fi
-  [ -e "$run.mcap" ] || dem-run "$scene" "${own[@]}" "$@" --threads 1 -q --report "$run.json" -o "$run.mcap"
+  ../once.sh "$run.mcap" dem-run "$scene" "${own[@]}" "$@" --threads 1 -q --report "$run.json"
   rm -f "$run.slope"
   # A small hopper may jam: grains that hang in it are no heap.
   if ! dem-measure "$run.mcap" --repose --side x+ --sectors 2 --ground 0 -q --report "$run.angle" > /dev/null 2> "$run.why"; then

@@ -2,13 +2,12 @@
 export LC_ALL=C
 : "${OUT:?set OUT to the folder of the runs, or call run.sh}"
 
-# scene NAME SCENE SETTINGS…: runs a scene unless that is done.
+# scene NAME SCENE SETTINGS…: runs a scene unless that is done. The working folder is that of the cases.
 scene() {
   local name=$1 scene=$2
   shift 2
-  [ -e "$OUT/$name.mcap" ] && return
-  echo "validation: $name" >&2
-  dem-run "$scene.toml" "$@" --threads "${THREADS:-1}" -q --report "$OUT/$name.json" -o "$OUT/$name.mcap"
+  [ -e "$OUT/$name.mcap" ] || echo "validation: $name" >&2
+  ../once.sh "$OUT/$name.mcap" dem-run "$scene.toml" "$@" --threads "${THREADS:-1}" -q --report "$OUT/$name.json"
 }
 
 # summary FILE KEY: a number of a measure's JSON.

@@ -267,3 +267,23 @@ fn a_run_that_a_guard_stopped_can_be_resumed_with_another_guard() {
     let to_pipe = with_stdin(folder.path(), "dem-run", &strict[..5], b"");
     assert!(to_pipe.code == 3 && Reader::new(&to_pipe.stdout[..]).all(|e| e.is_ok()), "a whole stream, too");
 }
+
+/// `pipelines/once.sh` leaves a finished run alone, and makes one that a guard stopped again.
+#[test]
+fn a_pipeline_does_not_take_a_stopped_run_as_made() {
+    let folder = tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name);
+    fs::write(file("s.toml"), LONG.replace("100000", "0.3")).unwrap();
+    let once = Path::new(env!("CARGO_MANIFEST_DIR")).join("../pipelines/once.sh");
+    let run =
+        |words: &str| line(folder.path(), &format!("'{}' run.mcap dem-run s.toml {words}", once.display()));
+    for _ in 0..2 {
+        let stopped = run("--set guards.overlap=0.001 --set time.safety=0.1");
+        assert!(stopped.code == 3 && stopped.stderr.contains("run-stopped.mcap"), "{}", stopped.stderr);
+        assert!(file("run-stopped.mcap").exists() && !file("run.mcap").exists());
+    }
+    let made = run("--until 0.001");
+    assert!(made.code == 0 && file("run.mcap").exists(), "{}", made.stderr);
+    let refused = run("--set no.such=key");
+    assert!(refused.code == 0 && refused.stderr.is_empty(), "made once: {}", refused.stderr);
+}

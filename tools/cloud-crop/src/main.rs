@@ -51,7 +51,7 @@ struct Args {
     #[arg(long, value_name = "M", value_parser = not_negative)]
     tolerance: Option<f64>,
     /// Only check for parts beyond the outer shape: write one CSV line for each part to stdout, and no cloud
-    #[arg(long, conflicts_with_all = ["output", "ascii", "outliers", "grazing", "ground", "scattered", "largest", "restore", "mark"])]
+    #[arg(long, conflicts_with_all = ["output", "ascii", "outliers", "grazing", "seen_from", "ground", "scattered", "largest", "restore", "mark"])]
     check: bool,
     /// Remove points whose mean distance to K neighbours is more than SIGMA deviations above the mean
     #[arg(long, value_name = "K,SIGMA")]

@@ -29,7 +29,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE|DIR")]
     pub poses: Option<PathBuf>,
     /// Size of the photographs that the matrices of --poses are for [px] [default: that of the masks]
-    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, requires = "poses")]
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, requires = "poses", conflicts_with = "turntable")]
     pub poses_size: Option<[usize; 2]>,
     /// Longest side of the stone's smallest box, which gives the scale [m]
     #[arg(long, value_name = "M", value_parser = geom::number::positive)]

@@ -1,5 +1,5 @@
 //! Attacks the tools and writes docs/reliability.md: `attack FILES KILLS SEED [PAGE.md]`;
-//! `attack silent [options|keys] [ONE_IN] [--OPTION…]` only lists silent options and keys, or those named.
+//! `attack silent [options|keys] [ONE_IN] [TOOL…] [--OPTION…]` only lists silent options and keys, or those named.
 
 #[path = "../../../../tests/tests/faults/attack/mod.rs"]
 mod attack;
@@ -50,7 +50,7 @@ const HEAD: &str = "# Reliability
 What the tools do with damaged files, absurd values and killed partners. `make -C pipelines attack` runs the attack and writes this page; `cargo test` runs a short form with
 another seed.
 
-Each case is one call of a tool. It may take 1.5 GB of address space and 20 seconds, and its files have a few kilobytes.
+Each case is one call of a tool. It may take 1.5 GB of address space and 20 seconds of processor time, and its files have a few kilobytes.
 
 ";
 
@@ -59,7 +59,7 @@ const TAIL: &str = "
 |---|---|
 | accepted | exit 0 and whole output. Clouds, meshes and walls in it are read again, and have finite coordinates |
 | refused | exit 1, 2 or 3 with a message |
-| panic, killed, too long | the program failed to control itself: a bug |
+| panic, killed, too long | the program failed to control itself: a bug. Too long is also a program that has not ended after five minutes on the clock |
 | no message | failed without a word |
 | half output | failed, and left output under its final name that looks whole |
 | not finite | succeeded with output that holds NaN or infinity |

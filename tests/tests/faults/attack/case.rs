@@ -10,8 +10,12 @@ use std::time::{Duration, Instant};
 
 /// Address space that a tool may take [kB]; the inputs have a few kilobytes.
 const MEMORY: u32 = 1_500_000;
-/// Time that a tool may take.
-const TIME: Duration = Duration::from_secs(20);
+/// Processor time that a tool may take [s]: other work on the machine does not count.
+const TIME: u32 = 20;
+/// Time on the clock after which a tool counts as one that waits for ever.
+pub const WAIT: Duration = Duration::from_secs(300);
+/// The signal at the end of the processor time.
+const SIGXCPU: i32 = 24;
 
 /// Names that calls give their output.
 const OUTPUTS: [&str; 5] = ["out.ply", "out.mcap", "out.png", "out.csv", "out.toml"];
@@ -107,8 +111,9 @@ impl Case {
         }
         let create = |name: &str| File::create(at(name)).expect("created");
         let mut command = Command::new("bash");
-        // No core dumps: an abort would take longer to write one than to run.
-        command.args(["-c", &format!("ulimit -c 0 -v {MEMORY}; exec \"$0\" \"$@\"")]);
+        // No core dumps: an abort would take longer to write one than to run. A hard limit of time would end it with the signal of too little memory.
+        let limits = format!("ulimit -c 0 -v {MEMORY}; ulimit -S -t {TIME}");
+        command.args(["-c", &format!("{limits}; exec \"$0\" \"$@\"")]);
         command.arg(program(self.tool)).args(&self.args).args(["--threads", "2"]);
         command.current_dir(folder.path()).stdin(Stdio::null());
         command.stdout(create("stdout")).stderr(create("stderr"));
@@ -120,7 +125,7 @@ impl Case {
     }
 }
 
-/// The exit status; none when the time was up.
+/// The exit status; none of a tool that waits for ever.
 fn wait(command: &mut Command) -> Option<ExitStatus> {
     let mut child = command.spawn().expect("bash starts");
     let start = Instant::now();
@@ -128,7 +133,7 @@ fn wait(command: &mut Command) -> Option<ExitStatus> {
         if let Some(status) = child.try_wait().expect("a child") {
             return Some(status);
         }
-        if start.elapsed() > TIME {
+        if start.elapsed() > WAIT {
             let _ = child.kill();
             let _ = child.wait();
             return None;
@@ -138,7 +143,7 @@ fn wait(command: &mut Command) -> Option<ExitStatus> {
 }
 
 fn judge(status: Option<ExitStatus>, stderr: &str, folder: &Path) -> Outcome {
-    let Some(status) = status else { return Outcome::TimedOut };
+    let Some(status) = status.filter(|s| s.signal() != Some(SIGXCPU)) else { return Outcome::TimedOut };
     if stderr.contains("panicked at") {
         return Outcome::Panicked;
     }

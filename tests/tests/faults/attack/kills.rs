@@ -1,6 +1,6 @@
 //! Pipes whose partners are killed: what is left under a final name must be the whole output.
 
-use super::case::{Outcome, Verdict};
+use super::case::{Outcome, Verdict, WAIT};
 use super::{Findings, files};
 use crate::samples;
 use grainpipe_tests::tools::program;
@@ -86,7 +86,7 @@ pub fn run(seed: u64, count: usize, found: &mut Findings) {
 /// Whether each program succeeded, and whether all ended in time.
 fn finish(children: &mut [Child]) -> (Vec<bool>, bool) {
     let start = Instant::now();
-    while start.elapsed() < Duration::from_secs(20) {
+    while start.elapsed() < WAIT {
         if children.iter_mut().all(|c| c.try_wait().is_ok_and(|s| s.is_some())) {
             return (children.iter_mut().map(|c| c.wait().is_ok_and(|s| s.success())).collect(), true);
         }

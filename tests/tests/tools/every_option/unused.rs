@@ -74,6 +74,15 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-run s.toml --check --progress", "--progress: --check runs nothing: leave it out"),
     ("dem-run s.toml --explain --check", "--check: --explain checks the scene as well: leave it out"),
     ("dem-view flat.xyz -o v.pvd --range 0,1", "--range changes nothing in .pvd"),
+    // An option that needs another one is accepted without it by clap where that one would be refused.
+    (
+        "cloud-crop scan.xyz --outer box:-1,-1,-1,1,1,1 --check --seen-from 0,0,2",
+        "'--check' cannot be used with '--seen-from",
+    ),
+    (
+        "stone-hull photographs --masks photographs --turntable turntable.toml --poses-size 64x48 -o hull.ply",
+        "'--turntable <FILE.toml>' cannot be used with '--poses-size",
+    ),
     (
         "stone-hull photographs --masks drawn --poses poses.txt --hold-out 2 -o h.ply",
         "--hold-out: 2 is more than the 1 photographs that have a mask: give a smaller number",

@@ -21,6 +21,7 @@ pub const FREE: &[(&str, &str, &str)] = &[
     ("cloud-crop", "--scale", "--check may count the same"),
     ("cloud-crop", "--tolerance", "a check that finds nothing"),
     ("cloud-crop", "--units", "the unit that the file has anyway"),
+    ("dem-lammps", "--lmp", "names the program that runs anyway"),
     ("dem-measure", "--all", "names the default of measures over time"),
     ("dem-measure", "--from", "the beginning of the run"),
     ("dem-measure", "--last", "names the default of measures of one frame"),
@@ -30,6 +31,7 @@ pub const FREE: &[(&str, &str, &str)] = &[
     ("stage-replay", "--intervals", "the default is the only one for recorded paths"),
     ("stage-replay", "--keep-times", "the examples begin at time 0"),
     ("stage-replay", "--outlet", "the examples have one outlet"),
+    ("stone-pack", "--bonded", "names the default"),
     ("stone-pack", "--tolerance", "every try may be too heavy for any of them"),
     ("wallgen", "--flow-at", "names the side that a closed drawing has anyway"),
     ("wallgen", "--largest-particle", "a check that finds nothing"),
@@ -60,11 +62,15 @@ const VALUES: &[(&str, &str)] = &[
     ("--axis", "0,0,0,1,0,0"),
     ("--at", "0,0,0.021,0,0,-1"),
     ("--blind", "0.4"),
+    ("--overlap", "0.1"),
+    ("--min-radius", "0.006"),
+    ("--min-radius", "0.01"),
+    ("--least-grains", "60"),
     ("--smallest-particle", "0.001"),
     ("--largest-particle", "10"),
 ];
 
-/// Runs every `one_in`-th case; `only` names options, those that may change nothing included.
+/// Runs every `one_in`-th case; `only` names tools, or options, those that may change nothing included.
 ///
 /// # Panics
 /// When an example fails.
@@ -74,7 +80,9 @@ pub fn find(one_in: usize, only: &[&str], found: &mut Findings) {
     let calls: Vec<Call> = examples::EXAMPLES.iter().map(|line| grammar.parse(line)).collect();
     let shop = shop(&calls);
     let mut bases: Vec<Call> = Vec::new();
-    let whole: Vec<Call> = calls.iter().filter_map(base).collect();
+    let (options, tools): (Vec<&str>, Vec<&str>) = only.iter().partition(|name| name.starts_with("--"));
+    let chosen = calls.iter().filter(|call| tools.is_empty() || tools.contains(&call.tool.as_str()));
+    let whole: Vec<Call> = chosen.filter_map(base).collect();
     let least: Vec<Call> = whole.par_iter().step_by(one_in).map(|call| reduced(&shop, call)).collect();
     for call in whole.into_iter().chain(least) {
         if !bases.contains(&call) {
@@ -82,7 +90,7 @@ pub fn find(one_in: usize, only: &[&str], found: &mut Findings) {
         }
     }
     let values = values(&calls);
-    let cases = bases.iter().flat_map(|base| trials(base, &values[&base.tool], only));
+    let cases = bases.iter().flat_map(|base| trials(base, &values[&base.tool], &options));
     run(&shop, cases.step_by(one_in).collect(), found);
 }
 
@@ -121,10 +129,12 @@ fn base(call: &Call) -> Option<Call> {
     Some(base)
 }
 
-/// The same with as few options as it needs.
+/// The same with as few options as it needs. A film keeps its size: with that of the default it would take as long as a hundred other calls.
 fn reduced(shop: &Shop, call: &Call) -> Call {
     let mut least = call.clone();
-    for (name, _) in call.options.iter().filter(|(name, _)| name != "-o") {
+    let film = call.value("-o").is_some_and(|file| file.ends_with(".gif") || file.ends_with(".mp4"));
+    let kept = |name: &str| name == "-o" || film && name == "--size";
+    for (name, _) in call.options.iter().filter(|(name, _)| !kept(name)) {
         let mut fewer = least.clone();
         fewer.options.retain(|o| o.0 != *name);
         if shop.answer(&fewer).code == 0 {
