@@ -35,5 +35,5 @@ for load in 100 200 400; do for seed in 2 3; do
   data+=(--data "$load kPa=$curve")
 done; done
 # The recipe with fewer trials, and shorter tests.
-sed 's/^trials = .*/trials = 32/; s/^first = .*/first = 20/; s/^batch = .*/batch = 4/; s/ --stress / --strain 0.06 --stress /' "$here/whole.toml" > "$out/1/whole.toml"
+sed 's/^trials = .*/trials = 24/; s/^first = .*/first = 16/; s/^batch = .*/batch = 4/; s/ --stress / --strain 0.06 --stress /' "$here/whole.toml" > "$out/1/whole.toml"
 calibrate "$out/1/whole.toml" "${data[@]}" --jobs "$jobs" --dir "$out/trials" -q --plot "$out/fit.png" --words "$out/words.md" -o "$out/found.csv"

@@ -38,16 +38,16 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "run", "words", "samples", "plot", "page", "design", "seed"])]
     pub guess: bool,
     /// What is it: a name of the table of materials, such as sand
-    #[arg(long, value_name = "NAME", requires = "guess")]
+    #[arg(long, value_name = "NAME", requires = "guess", conflicts_with_all = ["recipe", "run"])]
     pub material: Option<String>,
     /// Diameter of its grains, such as "5 mm"
-    #[arg(long, value_name = "LENGTH", requires = "guess")]
+    #[arg(long, value_name = "LENGTH", requires = "guess", conflicts_with_all = ["recipe", "run"])]
     pub size: Option<String>,
     /// How wet it is
-    #[arg(long, value_name = "dry|damp|wet", requires = "guess")]
+    #[arg(long, value_name = "dry|damp|wet", requires = "guess", conflicts_with_all = ["recipe", "run"])]
     pub moisture: Option<String>,
     /// Angle of repose of its heaps [degrees]
-    #[arg(long, value_name = "DEG", requires = "guess")]
+    #[arg(long, value_name = "DEG", requires = "guess", conflicts_with_all = ["recipe", "run"])]
     pub repose_deg: Option<String>,
     /// Write the findings as text (Markdown)
     #[arg(long, value_name = "FILE")]

@@ -23,7 +23,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE.toml")]
     pub turntable: Option<PathBuf>,
     /// Change focal length, axis, tilts and steps of --turntable a little until the silhouettes agree
-    #[arg(long, requires = "turntable")]
+    #[arg(long, requires = "turntable", conflicts_with = "poses")]
     pub adjust: bool,
     /// Poses: a table of a name and twelve numbers (3 × 4 matrix, row by row) a line, a folder with one matrix for each photograph, or COLMAP's folder with cameras.txt and images.txt
     #[arg(long, value_name = "FILE|DIR")]

@@ -84,6 +84,14 @@ const REFUSED: &[(&str, &str)] = &[
         "'--turntable <FILE.toml>' cannot be used with '--poses-size",
     ),
     (
+        "stone-hull photographs --masks photographs --poses poses.txt --adjust -o hull.ply",
+        "'--adjust' cannot be used with '--poses",
+    ),
+    ("calibrate recipe.toml --moisture dry", "cannot be used with '--moisture"),
+    ("calibrate recipe.toml --material sand", "cannot be used with '--material"),
+    ("calibrate recipe.toml --size 2mm", "cannot be used with '--size"),
+    ("calibrate recipe.toml --repose-deg 33", "cannot be used with '--repose-deg"),
+    (
         "stone-hull photographs --masks drawn --poses poses.txt --hold-out 2 -o h.ply",
         "--hold-out: 2 is more than the 1 photographs that have a mask: give a smaller number",
     ),
