@@ -114,24 +114,28 @@ impl Raster {
     pub fn squared_distance(&self, value: bool) -> Vec<u32> {
         let (w, h) = (self.width, self.height);
         let far = (w + h) as u32;
-        // Down each column.
+        // Along all columns at once, down and up.
         let mut column = vec![far; w * h];
-        for x in 0..w {
-            let mut last = far;
-            for y in 0..h {
-                last = if self.pixels[y * w + x] == value { 0 } else { (last + 1).min(far) };
-                column[y * w + x] = last;
-            }
-            let mut last = far;
-            for y in (0..h).rev() {
-                last = if self.pixels[y * w + x] == value { 0 } else { (last + 1).min(far) };
-                column[y * w + x] = last.min(column[y * w + x]);
-            }
+        let mut last = vec![far; w];
+        for (column, pixels) in column.chunks_mut(w).zip(self.pixels.chunks(w)) {
+            nearer(column, &mut last, pixels, value, far);
+        }
+        last.fill(far);
+        for (column, pixels) in column.chunks_mut(w).zip(self.pixels.chunks(w)).rev() {
+            nearer(column, &mut last, pixels, value, far);
         }
         // Along each row.
         let mut out = vec![0u32; w * h];
         out.par_chunks_mut(w).zip(column.par_chunks(w)).for_each(|(out, column)| along(column, far, out));
         out
+    }
+}
+
+/// One row further: `last` is the distance along each column to the pixel of this value that was met last, and `column` the least one so far.
+fn nearer(column: &mut [u32], last: &mut [u32], pixels: &[bool], value: bool, far: u32) {
+    for ((column, last), pixel) in column.iter_mut().zip(last).zip(pixels) {
+        *last = if *pixel == value { 0 } else { (*last + 1).min(far) };
+        *column = (*last).min(*column);
     }
 }
 

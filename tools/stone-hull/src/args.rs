@@ -6,7 +6,7 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "The hull holds the stone and does not enter its hollows: its volume is an upper bound, unless --refine finds them.\n\nExamples:\n\
     \x20 stone-hull photographs --masks masks --turntable turntable.toml --refine -o stone.ply\n\
     \x20 stone-hull photographs --masks masks --poses poses.txt --length 0.12 -o stone.ply\n\
-    \x20 stone-hull photographs --masks masks --poses poses.txt --hold-out 3 --report agreement.json -o stone.ply";
+    \x20 stone-hull photographs --masks masks --poses poses.txt --hold-out 3 -o try.ply";
 
 /// Carve the visual hull of a stone from the masks of its photographs
 #[derive(Parser)]

@@ -21,14 +21,17 @@ struct Near {
 /// Coverage of each pixel, 0–255, and the width of the edge [px].
 pub(super) fn soft(photograph: &Photograph, region: &Raster) -> (Vec<u8>, f64) {
     let width = |near: &[Near]| median(near.iter().filter_map(|n| n.width).collect());
-    let (mut near, mut reach) = (band(photograph, region, BAND[0]), BAND[0]);
+    let (to_stone, to_rest) = (region.squared_distance(true), region.squared_distance(false));
+    let distance = |k: usize| if region.pixels[k] { to_rest[k] } else { to_stone[k] };
+    let band = |reach: f64| band(photograph, region, &distance, reach);
+    let (mut near, mut reach) = (band(BAND[0]), BAND[0]);
     // A blurred edge is wider than the first band, and then its sides are farther apart.
     for _ in 0..3 {
         let wanted = (0.8 * width(&near)).clamp(BAND[0], BAND[1]);
         if wanted < 1.2 * reach {
             break;
         }
-        (near, reach) = (band(photograph, region, wanted), wanted);
+        (near, reach) = (band(wanted), wanted);
     }
     let width = width(&near);
     let mut coverage: Vec<u8> = region.pixels.iter().map(|p| if *p { 255 } else { 0 }).collect();
@@ -47,13 +50,16 @@ pub(super) fn soft(photograph: &Photograph, region: &Raster) -> (Vec<u8>, f64) {
     (coverage, width)
 }
 
-/// Coverage of the pixels within `reach` of the edge of a region.
-fn band(photograph: &Photograph, region: &Raster, reach: f64) -> Vec<Near> {
-    let (to_stone, to_rest) = (region.squared_distance(true), region.squared_distance(false));
+/// Coverage of the pixels within `reach` of the edge of a region; `distance` is the square of that to the other side [px²].
+fn band(
+    photograph: &Photograph,
+    region: &Raster,
+    distance: &(impl Fn(usize) -> u32 + Sync),
+    reach: f64,
+) -> Vec<Near> {
     let limit = (reach * reach) as u32;
-    let distance = |k: usize| if region.pixels[k] { to_rest[k] } else { to_stone[k] };
     let pixels: Vec<usize> = (0..region.pixels.len()).filter(|k| distance(*k) <= limit).collect();
-    let near = |&pixel: &usize| near(photograph, region, &distance, pixel, reach);
+    let near = |&pixel: &usize| near(photograph, region, distance, pixel, reach);
     pixels.par_iter().filter_map(near).collect()
 }
 

@@ -85,7 +85,7 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     (
         "stone-hull photographs --masks photographs --poses poses.txt --adjust -o hull.ply",
-        "'--adjust' cannot be used with '--poses",
+        "cannot be used with '--adjust'",
     ),
     ("calibrate recipe.toml --moisture dry", "cannot be used with '--moisture"),
     ("calibrate recipe.toml --material sand", "cannot be used with '--material"),
