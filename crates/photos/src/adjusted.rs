@@ -4,7 +4,7 @@
 //! residuals of [`crate::coherence`]. Each change adds a small residual, so that what silhouettes do not tell stays as it was. The distance
 //! stays, which gives the scale.
 
-use crate::coherence::{Ball, refine, residuals};
+use crate::coherence::{Ball, mean, refine, residuals};
 use crate::field::Field;
 use crate::hull::{HullError, View, carve, region};
 use crate::turntable::{Place, Turntable};
@@ -81,8 +81,7 @@ pub fn adjust(table: &Turntable, all: &[Turned], camera: bool) -> Result<(Turnta
         found
     };
     let none = vec![0.0; usual.len()];
-    let before = of(&none);
-    let before = (before.iter().map(|r| r * r).sum::<f64>() / before.len() as f64).sqrt();
+    let before = mean(&of(&none));
     let steps: Vec<f64> = usual.iter().map(|u| u / 10.0).collect();
     let (found, after) = refine(&none, &steps, of);
     Ok((changes.table(&found), Adjustment { before, after }))
@@ -119,11 +118,10 @@ impl Changes {
         let mut next = changes.iter();
         let mut change = || next.next().copied().unwrap_or(0.0);
         if self.camera {
-            let [w, h] = table.camera.size_px.unwrap_or(self.size.map(|s| s as f64));
-            let [x, y] = table.camera.centre_px.unwrap_or([(w - 1.0) / 2.0, (h - 1.0) / 2.0]);
+            let (size, [x, y]) = table.frame(self.size);
             table.camera.focal_px *= libm::exp(change());
             table.camera.centre_px = Some([x + change(), y + change()]);
-            table.camera.size_px = Some([w, h]);
+            table.camera.size_px = Some(size);
         }
         for ring in &self.rings {
             table.ring[*ring].tilt_deg += change();

@@ -117,6 +117,11 @@ pub fn refine(start: &[f64], steps: &[f64], of: impl Fn(&[f64]) -> Vec<f64>) -> 
             break;
         }
     }
-    let mean = (now.iter().map(|r| r * r).sum::<f64>() / now.len() as f64).sqrt();
+    let mean = mean(&now);
     (at, mean)
+}
+
+/// Mean square root of residuals.
+pub fn mean(residuals: &[f64]) -> f64 {
+    (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt()
 }

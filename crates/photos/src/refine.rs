@@ -42,12 +42,10 @@ const SMOOTH: f64 = 0.05;
 const PASSES: usize = 60;
 /// Correlations that count.
 const LEAST: f64 = 0.6;
-
 /// A correlation must be better than that of the surface by this for it to move.
 const MARGIN: f64 = 0.08;
 /// Times that correlations are averaged over neighbours.
 const SHARED: usize = 6;
-
 /// Rounds; each sees the surface of the one before.
 const ROUNDS: usize = 3;
 

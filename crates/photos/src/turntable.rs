@@ -165,10 +165,15 @@ impl Turntable {
         Place { angle_deg: to.start_deg + number * to.step_deg, ..*place }
     }
 
+    /// Width and height that the pixels are of, and where the camera looks [px], for photographs of a size.
+    pub fn frame(&self, size: [usize; 2]) -> ([f64; 2], [f64; 2]) {
+        let [w, h] = self.camera.size_px.unwrap_or(size.map(|s| s as f64));
+        ([w, h], self.camera.centre_px.unwrap_or([(w - 1.0) / 2.0, (h - 1.0) / 2.0]))
+    }
+
     /// The camera of a photograph of `width` × `height` pixels, in the frame of the table.
     pub fn camera(&self, place: &Place, width: usize, height: usize) -> Camera {
-        let [w, h] = self.camera.size_px.unwrap_or([width as f64, height as f64]);
-        let centre = self.camera.centre_px.unwrap_or([(w - 1.0) / 2.0, (h - 1.0) / 2.0]);
+        let ([w, _], centre) = self.frame([width, height]);
         let (tilt, turn) = (self.ring[place.ring].tilt_deg.to_radians(), place.angle_deg.to_radians());
         let (sin, cos) = (libm::sin, libm::cos);
         let eye = Vec3::new(cos(tilt) * cos(turn), -cos(tilt) * sin(turn), sin(tilt)) * self.camera.distance;

@@ -87,11 +87,10 @@ fn adjusted(table: &Turntable, first: &Side, second: Option<&Side>) -> anyhow::R
 
 /// Warns of two places that do not fit.
 fn doubt(found: &Alignment) {
-    let percent = |x: f64| geom::Shown((1000.0 * x).round() / 10.0);
     if found.overlap < OVERLAP {
         cli::warn(&format!(
             "the hulls of both places of the stone overlap by {} % only: check turned_over, and that it is the same stone",
-            percent(found.overlap)
+            words::percent(found.overlap)
         ));
     }
     if found.other < 1.5 * found.residual {

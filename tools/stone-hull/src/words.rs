@@ -61,8 +61,8 @@ pub fn adjusted(from: &Turntable, to: &Turntable, done: &Adjustment) -> String {
         }
     };
     change("focal length", from.camera.focal_px, to.camera.focal_px, " px");
-    if let (Some([w, h]), Some([x, y])) = (to.camera.size_px, to.camera.centre_px) {
-        let [u, v] = from.camera.centre_px.unwrap_or([(w - 1.0) / 2.0, (h - 1.0) / 2.0]);
+    if let (Some(size), Some([x, y])) = (to.camera.size_px, to.camera.centre_px) {
+        let (_, [u, v]) = from.frame(size.map(|s| s as usize));
         change("axis at x", u, x, " px");
         change("centre at y", v, y, " px");
     }
