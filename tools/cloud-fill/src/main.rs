@@ -102,6 +102,9 @@ fn fill(args: Args) -> anyhow::Result<Report> {
     if args.bridge && !filled.report.holes.iter().any(|h| h.between) {
         cli::warn("--bridge changes nothing: no hole lies between two surfaces");
     }
+    if !settings.seen_from.is_empty() && filled.report.holes.is_empty() {
+        cli::warn("--seen-from changes nothing: no hole was found that could be seen through");
+    }
     if let Some(path) = &args.mesh {
         let mut out = cli::OutputStream::file(path)?;
         cloud::write_mesh(&mut out, &filled.mesh, stream::ply::Encoding::default())?;
@@ -116,15 +119,20 @@ fn fill(args: Args) -> anyhow::Result<Report> {
 fn summary(report: &cloud::fill::Report) -> String {
     let holes = report.holes.len();
     let smallest = report.scales.iter().map(|s| s.smallest_hole);
+    let checked = match report.viewpoints {
+        0 => String::new(),
+        1 => " (checked from 1 viewpoint)".to_owned(),
+        eyes => format!(" (checked from {eyes} viewpoints)"),
+    };
     match &report.sparse {
         None if holes == 0 && !report.scales.is_empty() => format!(
             "0 points added in 0 holes: holes would be found from {:.3} m wide where the scan is densest, from {:.3} m where it is sparsest",
             smallest.clone().fold(f64::INFINITY, f64::min),
             smallest.fold(0.0, f64::max)
         ),
-        None => format!("{} points added in {holes} holes", report.added),
+        None => format!("{} points added in {holes} holes{checked}", report.added),
         Some(sparse) => format!(
-            "{} points added in {holes} holes, {} in {} places that were too sparse for a spacing of {} m",
+            "{} points added in {holes} holes{checked}, {} in {} places that were too sparse for a spacing of {} m",
             report.added - sparse.added,
             sparse.added,
             sparse.places,

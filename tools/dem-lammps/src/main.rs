@@ -188,8 +188,12 @@ fn simulate(
     let outcome = done.map_err(|e| kept::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
     outcome.warnings.iter().for_each(|warning| cli::warn(warning));
     let summary = format!(
-        "{} steps of {:.3e} s to {:.4} s on LAMMPS, {} particles, {} frames",
-        outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames
+        "{} steps of {:.3e} s to {} s on LAMMPS, {} particles, {} frames",
+        outcome.steps,
+        outcome.dt,
+        geom::Shown(outcome.time),
+        outcome.particles,
+        outcome.frames
     );
     let report = Report::new(summary).with_all(&outcome);
     match &outcome.stopped {

@@ -264,8 +264,12 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
     let settled = outcome.settled.as_ref().map_or(String::new(), |why| format!("; ended at rest: {why}"));
     let by = outcome.device.as_ref().map_or(String::new(), |name| format!(" on {name}"));
     let summary = format!(
-        "{} steps of {:.3e} s to {:.4} s{by}, {} particles, {} frames{error}{settled}{held}",
-        outcome.steps, outcome.dt, outcome.time, outcome.particles, outcome.frames
+        "{} steps of {:.3e} s to {} s{by}, {} particles, {} frames{error}{settled}{held}",
+        outcome.steps,
+        outcome.dt,
+        geom::Shown(outcome.time),
+        outcome.particles,
+        outcome.frames
     );
     let report = Report::new(summary).with_all(&outcome);
     match outcome.stopped {
