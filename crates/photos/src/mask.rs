@@ -7,6 +7,7 @@
 //!
 //! The level only decides what is stone. The edge is where the light is half way between both sides, wherever the stone is lit more or less.
 
+mod beside;
 mod edge;
 mod warning;
 

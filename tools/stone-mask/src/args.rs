@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use clap::Parser;
-use photos::{MaskSettings, Polarity};
+use photos::{MaskSettings, Polarity, raster::WIDEST};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -52,7 +52,7 @@ enum Object {
 /// Radius of the morphology, at most that of a large stone on a large photograph.
 fn pixels(text: &str) -> Result<f64, String> {
     let value = geom::number::not_negative(text).map_err(|e| e.to_string())?;
-    if value <= 1000.0 { Ok(value) } else { Err("give at most 1000".to_owned()) }
+    if value <= WIDEST { Ok(value) } else { Err(format!("give at most {WIDEST}")) }
 }
 
 impl Args {

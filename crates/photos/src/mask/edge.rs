@@ -1,15 +1,21 @@
 //! The edge of a region at a fraction of a pixel, in linear light.
 
+use super::beside::{Beside, Sums};
 use crate::photograph::Photograph;
-use crate::raster::Raster;
+use crate::raster::{Nearby, Raster};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Least half width of the band around the edge [px], and the most that blur makes of it.
 const BAND: [f64; 2] = [3.0, 24.0];
 /// Least difference of light between stone and background for an edge between pixels [–].
 const CONTRAST: f64 = 0.01;
 
+/// Rows that are worked on together.
+const STRIP: usize = 128;
+
 /// One pixel of the band.
+#[derive(Clone)]
 struct Near {
     pixel: usize,
     /// Share that the stone covers [–].
@@ -21,9 +27,12 @@ struct Near {
 /// Coverage of each pixel, 0–255, and the width of the edge [px].
 pub(super) fn soft(photograph: &Photograph, region: &Raster) -> (Vec<u8>, f64) {
     let width = |near: &[Near]| median(near.iter().filter_map(|n| n.width).collect());
-    let (to_stone, to_rest) = (region.squared_distance(true), region.squared_distance(false));
-    let distance = |k: usize| if region.pixels[k] { to_rest[k] } else { to_stone[k] };
-    let band = |reach: f64| band(photograph, region, &distance, reach);
+    let nearby = [false, true].map(|value| Nearby::new(region, value));
+    let edge = |reach: f64| {
+        let [rest, stone] = [0, 1].map(|side| nearby[side].within(reach));
+        region.like(rest.into_iter().zip(stone).map(|(rest, stone)| rest && stone).collect())
+    };
+    let band = |reach: f64| band(photograph, region, &edge, reach);
     let (mut near, mut reach) = (band(BAND[0]), BAND[0]);
     // A blurred edge is wider than the first band, and then its sides are farther apart.
     for _ in 0..3 {
@@ -50,43 +59,44 @@ pub(super) fn soft(photograph: &Photograph, region: &Raster) -> (Vec<u8>, f64) {
     (coverage, width)
 }
 
-/// Coverage of the pixels within `reach` of the edge of a region; `distance` is the square of that to the other side [px²].
-fn band(
-    photograph: &Photograph,
-    region: &Raster,
-    distance: &(impl Fn(usize) -> u32 + Sync),
-    reach: f64,
-) -> Vec<Near> {
-    let limit = (reach * reach) as u32;
-    let pixels: Vec<usize> = (0..region.pixels.len()).filter(|k| distance(*k) <= limit).collect();
-    let near = |&pixel: &usize| near(photograph, region, distance, pixel, reach);
-    pixels.par_iter().filter_map(near).collect()
+/// Coverage of the pixels within `reach` of the edge of a region; `edge` gives the pixels so near to it.
+fn band(photograph: &Photograph, region: &Raster, edge: &impl Fn(f64) -> Raster, reach: f64) -> Vec<Near> {
+    // Light beyond the blurred part of the edge, on both sides.
+    let (edge, blurred) = (edge(reach), edge(0.8 * reach));
+    let beside = Beside { photograph, region, blurred: &blurred, reach: (1.4 * reach + 2.0) as usize };
+    let rows = edge.rows();
+    let strips: Vec<Vec<Near>> = rows
+        .step_by(STRIP)
+        .collect::<Vec<usize>>()
+        .into_par_iter()
+        .map(|first| strip(&beside, &edge, first..(first + STRIP).min(region.height)))
+        .collect();
+    strips.concat()
 }
 
-fn near(
-    photograph: &Photograph,
-    region: &Raster,
-    distance: &impl Fn(usize) -> u32,
-    pixel: usize,
-    reach: f64,
-) -> Option<Near> {
-    let (w, h) = (region.width, region.height);
-    let (x, y) = (pixel % w, pixel / w);
-    let r = (1.4 * reach + 2.0) as usize;
-    // Light beyond the blurred part of the edge, on both sides.
-    let beyond = (0.8 * reach).powi(2) as u32;
-    let (mut sum, mut count) = ([0.0; 2], [0.0; 2]);
-    for v in y.saturating_sub(r)..(y + r + 1).min(h) {
-        for u in x.saturating_sub(r)..(x + r + 1).min(w) {
-            let k = v * w + u;
-            if distance(k) > beyond {
-                let side = usize::from(region.pixels[k]);
-                sum[side] += f64::from(photograph.light[k]);
-                count[side] += 1.0;
-            }
+/// The band in some rows.
+fn strip(beside: &Beside, edge: &Raster, rows: Range<usize>) -> Vec<Near> {
+    let w = edge.width;
+    let mut near = Vec::new();
+    let mut sums: Option<Sums> = None;
+    for y in rows {
+        let row = &edge.pixels[y * w..(y + 1) * w];
+        let Some(first) = row.iter().position(|p| *p) else { continue };
+        let last = row.iter().rposition(|p| *p).unwrap_or(first);
+        let sums = sums.get_or_insert_with(|| beside.sums());
+        beside.go_to(sums, y);
+        let mut window = beside.window(sums, first);
+        for (x, _) in row.iter().enumerate().take(last + 1).skip(first).filter(|(_, p)| **p) {
+            beside.slide(sums, &mut window, x);
+            near.extend(of_pixel(beside.photograph, [x, y], window.means()));
         }
     }
-    let [off, on] = [0, 1].map(|side| sum[side] / count[side]);
+    near
+}
+
+/// A pixel, by the means of the light off and on the stone around it; none where they hardly differ, or one side is not near.
+fn of_pixel(photograph: &Photograph, [x, y]: [usize; 2], [off, on]: [f64; 2]) -> Option<Near> {
+    let (w, h) = (photograph.width, photograph.height);
     // NaN when one side is not near.
     if !((on - off).abs() > CONTRAST) {
         return None;
@@ -98,7 +108,7 @@ fn near(
         let slope = [light(x + 1, y) - light(x - 1, y), light(x, y + 1) - light(x, y - 1)];
         2.0 * (on - off).abs() / slope[0].hypot(slope[1]).max(1e-9)
     });
-    Some(Near { pixel, coverage, width })
+    Some(Near { pixel: y * w + x, coverage, width })
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
