@@ -14,12 +14,12 @@ mod warning;
 use crate::photograph::Photograph;
 use crate::raster::Raster;
 use crate::threshold::otsu;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use warning::{MaskWarning, among};
 
 /// Whether the stone is brighter than what is behind it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Polarity {
     /// The stone is bright.
@@ -55,7 +55,7 @@ pub struct Mask {
 }
 
 /// What was found on the way to a mask.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// Stored value between stone and background, 0–255.
     pub level: u8,

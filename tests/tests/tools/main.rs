@@ -21,6 +21,7 @@ mod ledger_line;
 mod limits;
 mod measure;
 mod outputs;
+mod photographs;
 mod pipelines;
 mod plants;
 mod python;

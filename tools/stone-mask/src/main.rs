@@ -1,6 +1,7 @@
 //! Finds the masks of photographs of a stone.
 
 mod args;
+mod kept;
 mod work;
 
 use args::Args;
@@ -23,10 +24,12 @@ fn stone_mask(args: Args) -> anyhow::Result<Report> {
     let names: Vec<String> = photographs.iter().map(|p| p.display().to_string()).collect();
     let shares: Vec<f64> = done.iter().map(|d| d.area / d.pixels as f64).collect();
     let mean = shares.iter().sum::<f64>() / shares.len() as f64;
+    let before = done.iter().filter(|d| d.origin == work::Origin::Before).count();
     let doubtful = warned.iter().filter(|w| **w).count();
     let summary = format!(
-        "{} masks; the stone takes {} % of a photograph on average{}",
+        "{} masks{}; the stone takes {} % of a photograph on average{}",
         done.len(),
+        if before > 0 { format!(", {before} of them found before") } else { String::new() },
         Shown((1000.0 * mean).round() / 10.0),
         if doubtful > 0 { format!("; {doubtful} are doubtful") } else { String::new() }
     );

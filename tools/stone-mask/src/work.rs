@@ -1,6 +1,7 @@
 //! Photograph by photograph: read, find or take the mask, write it.
 
 use crate::args::Args;
+use crate::kept::{self, Note};
 use anyhow::Context;
 use photos::mask::{Found, among};
 use photos::sheet::Thumbnail;
@@ -12,8 +13,20 @@ use std::path::{Path, PathBuf};
 /// Photographs in memory at a time, at most.
 const AT_ONCE: usize = 8;
 
+/// Where a mask came from.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Origin {
+    /// It was found in the photograph.
+    Photograph,
+    /// `--given` has it.
+    Given,
+    /// An earlier call has found it.
+    Before,
+}
+
 /// What is kept of a mask that is written.
 pub struct Done {
+    pub origin: Origin,
     pub area: f64,
     pub pixels: usize,
     pub found: Option<Found>,
@@ -28,9 +41,8 @@ pub fn masks(args: &Args, photographs: &[PathBuf]) -> anyhow::Result<Vec<Done>> 
     let progress = cli::Progress::new("photographs", photographs.len() as u64);
     let settings = args.settings();
     let mut all = Vec::with_capacity(photographs.len());
-    let mut given = 0;
     for some in photographs.chunks(AT_ONCE) {
-        let done: Vec<anyhow::Result<(Done, bool)>> = some
+        let done: Vec<anyhow::Result<Done>> = some
             .par_iter()
             .map(|path| {
                 let done = one(args, &settings, path).with_context(|| path.display().to_string());
@@ -39,40 +51,52 @@ pub fn masks(args: &Args, photographs: &[PathBuf]) -> anyhow::Result<Vec<Done>> 
             })
             .collect();
         for done in done {
-            let (done, taken) = done?;
-            given += usize::from(taken);
-            all.push(done);
+            all.push(done?);
         }
     }
-    if args.given.is_some() && given == 0 {
+    if args.given.is_some() && all.iter().all(|done| done.origin != Origin::Given) {
         return Err(cli::usage("--given: has no mask of the name of a photograph (NAME.png): leave it out"));
     }
     Ok(all)
 }
 
-/// One photograph; whether its mask was given.
-fn one(args: &Args, settings: &MaskSettings, path: &Path) -> anyhow::Result<(Done, bool)> {
+/// One photograph.
+fn one(args: &Args, settings: &MaskSettings, path: &Path) -> anyhow::Result<Done> {
     let bytes = std::fs::read(path).context("cannot open it")?;
-    let photograph = Photograph::read(&bytes)?;
-    drop(bytes);
     let name = Path::new(path.file_stem().unwrap_or_default()).with_extension("png");
+    let file = args.folder.join(&name);
     let given = args.given.as_ref().map(|dir| dir.join(&name)).filter(|p| p.is_file());
-    let mask = match &given {
-        Some(given) => taken(given, &photograph).with_context(|| format!("--given: {}", given.display()))?,
-        None => find_mask(&photograph, settings),
+    let stamp = kept::stamp(&bytes, settings);
+    let before = if given.is_none() { kept::read(&file, &stamp) } else { None };
+    let read = || Photograph::read(&bytes);
+    let (mask, origin, photograph) = match before {
+        Some(mask) => (mask, Origin::Before, args.sheet.is_some().then(read).transpose()?),
+        None => {
+            let photograph = read()?;
+            let (mask, origin) = match &given {
+                Some(given) => {
+                    let mask = taken(given, &photograph);
+                    (mask.with_context(|| format!("--given: {}", given.display()))?, Origin::Given)
+                }
+                None => (find_mask(&photograph, settings), Origin::Photograph),
+            };
+            (mask, origin, Some(photograph))
+        }
     };
-    let png = photograph::png(mask.width, mask.height, &mask.coverage)?;
-    let mut out = cli::OutputStream::file(&args.folder.join(name))?;
-    out.write_all(&png)?;
-    out.commit()?;
-    let done = Done {
+    if origin != Origin::Before {
+        let png = kept::png(&mask, mask.found.map(|found| Note { stamp, found }).as_ref())?;
+        let mut out = cli::OutputStream::file(&file)?;
+        out.write_all(&png)?;
+        out.commit()?;
+    }
+    Ok(Done {
+        origin,
         area: mask.area(),
         pixels: mask.coverage.len(),
         found: mask.found,
         warnings: mask.warnings(),
-        thumbnail: args.sheet.is_some().then(|| Thumbnail::new(&photograph, &mask)),
-    };
-    Ok((done, given.is_some()))
+        thumbnail: photograph.filter(|_| args.sheet.is_some()).map(|p| Thumbnail::new(&p, &mask)),
+    })
 }
 
 /// A mask from elsewhere.

@@ -1,0 +1,46 @@
+//! Masks of photographs: a call that was stopped goes on.
+
+use crate::every_option::files::inputs;
+use grainpipe_tests::tools::line;
+use std::fs;
+use std::path::Path;
+
+fn bytes(folder: &Path, name: &str) -> Vec<u8> {
+    fs::read(folder.join(name)).expect("a mask")
+}
+
+#[test]
+fn masks_that_are_there_stay_and_others_are_found() {
+    let made = inputs();
+    let folder = made.path();
+    let run = |more: &str| {
+        let done = line(folder, &format!("stone-mask photographs -o masks{more}"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr
+    };
+    let first = run("");
+    assert!(!first.contains("found before"), "{first}");
+    let [one, two] = ["masks/01.png", "masks/02.png"].map(|name| bytes(folder, name));
+
+    // One is missing, one is cut short, one belongs to another photograph.
+    fs::remove_file(folder.join("masks/01.png")).expect("removed");
+    fs::write(folder.join("masks/02.png"), &two[..two.len() / 2]).expect("written");
+    fs::copy(folder.join("masks/04.png"), folder.join("masks/03.png")).expect("copied");
+    let again = run("");
+    assert!(again.contains("12 masks, 9 of them found before"), "{again}");
+    assert_eq!([bytes(folder, "masks/01.png"), bytes(folder, "masks/02.png")], [one, two]);
+    assert_ne!(bytes(folder, "masks/03.png"), bytes(folder, "masks/04.png"));
+
+    // The same of all, with the sheet and what is doubtful.
+    let sheet = run(" --sheet sheet.png --report before.json");
+    assert!(sheet.contains("12 of them found before"), "{sheet}");
+    fs::remove_dir_all(folder.join("masks")).expect("removed");
+    let drawn = bytes(folder, "sheet.png");
+    run(" --sheet sheet.png --report fresh.json");
+    assert_eq!(bytes(folder, "sheet.png"), drawn);
+
+    let other = run(" --level 100");
+    assert!(!other.contains("found before"), "{other}");
+    let given = run(" --given drawn");
+    assert!(!given.contains("found before"), "{given}");
+}
