@@ -4,6 +4,7 @@
 
 mod noise;
 pub(crate) mod raster;
+mod tag;
 
 use crate::camera::Camera;
 use crate::mask::Mask;
@@ -11,6 +12,8 @@ use crate::photograph::{Photograph, PhotographError, encode};
 use geom::Vec3;
 use geom::mesh::TriMesh;
 use image::ImageEncoder;
+
+pub use tag::Tag;
 
 /// Samples of a pixel along each side.
 const SAMPLES: usize = 4;

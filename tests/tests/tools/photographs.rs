@@ -1,4 +1,4 @@
-//! Masks of photographs: a call that was stopped goes on.
+//! Masks of photographs, and the scale of what is made of them.
 
 use crate::every_option::files::inputs;
 use grainpipe_tests::tools::line;
@@ -43,4 +43,37 @@ fn masks_that_are_there_stay_and_others_are_found() {
     assert!(!other.contains("found before"), "{other}");
     let given = run(" --given drawn");
     assert!(!given.contains("found before"), "{given}");
+}
+
+#[test]
+fn tags_give_the_scale() {
+    let made = inputs();
+    let run = |more: &str| {
+        let call =
+            format!("stone-hull tagged --masks tagged-masks --poses tagged.txt --cells 30 -o t.ply{more}");
+        let done = line(made.path(), &call);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let report = fs::read_to_string(made.path().join("r.json")).expect("a report");
+        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+        (done.stderr, report["length"].as_f64().expect("a length"), report["tags"].clone())
+    };
+    let (words, plain, _) = run(" --report r.json");
+    assert!(words.contains("--tag-size"), "{words}");
+    // The tag is 20 mm wide, as the poses say; and were it 30 mm, all would be half as large again.
+    for (size, times) in [("0.02", 1.0), ("0.03", 1.5)] {
+        let (words, length, tags) = run(&format!(" --report r.json --tag-size {size}"));
+        assert!((length / plain / times - 1.0).abs() < 0.005, "{words}");
+        assert!(!words.contains("warning") && tags["sightings"].as_u64() > Some(2), "{words}");
+    }
+}
+
+#[test]
+fn what_shows_no_tag_is_refused() {
+    let made = inputs();
+    let done = line(made.path(), "stone-mask photographs -o masks -q");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let call = "stone-hull photographs --masks masks --poses poses.txt --tag-size 0.02 --cells 20 -o t.ply";
+    let done = line(made.path(), call);
+    let words = "--tag-size: tags were seen 0 times, but none from two directions";
+    assert!(done.code == 1 && done.stderr.contains(words), "{}", done.stderr);
 }

@@ -34,6 +34,9 @@ pub struct Args {
     /// Longest side of the stone's smallest box, which gives the scale [m]
     #[arg(long, value_name = "M", value_parser = geom::number::positive)]
     pub length: Option<f64>,
+    /// Side of the black square of the tags that lie beside the stone (AprilTag, family 36h11), which gives the scale [m]
+    #[arg(long, value_name = "M", value_parser = geom::number::positive, conflicts_with = "length")]
+    pub tag_size: Option<f64>,
     /// Cells along the longest side of the hull
     #[arg(long, value_name = "N", default_value = "200", value_parser = cells)]
     pub cells: usize,

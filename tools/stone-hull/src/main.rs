@@ -5,6 +5,7 @@ mod held_out;
 mod on_turntable;
 mod poses;
 mod refined;
+mod tags;
 mod views;
 mod words;
 
@@ -34,7 +35,8 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
     let held_out = held_out::compared(&found, &mesh);
     let closed = Stone::new(&mesh, true).context("the hull")?;
     let length = ShapeMeasures::of(&closed).sides[0];
-    let factor = args.length.map_or(1.0, |wanted| wanted / length);
+    let tags = args.tag_size.map(|size| tags::measured(&args, &found, size)).transpose()?;
+    let factor = tags.map_or(args.length.map_or(1.0, |wanted| wanted / length), |tags| tags.factor);
     mesh.scale(factor);
     let mut out = args.output.open()?;
     let says = [words::comment(args.refine)];
@@ -43,6 +45,7 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
     words::scale(&args, length);
     let mut summary = words::summary(&mesh, &agreement, &found, refinement.as_ref());
     summary += &held_out::words(&held_out);
+    summary += &tags.as_ref().map_or(String::new(), tags::words);
     summary += found.adjusted.as_ref().map_or("", |a| &a.words);
     Ok(Report::new(summary)
         .with("photographs", &found.names)
@@ -50,6 +53,7 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
         .with("refinement", refinement)
         .with("volume", mesh.volume())
         .with("length", length * factor)
+        .with("tags", tags)
         .with("faces", mesh.faces.len())
         .with("cells", args.cells)
         .with("step", samples.step * factor)

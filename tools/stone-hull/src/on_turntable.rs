@@ -31,12 +31,12 @@ pub fn read(args: &Args, names: &[String], file: &Path) -> anyhow::Result<Found>
     let views = |side: Side| side.map(|turned| turned.on(&table, last).view(last));
     let first = views(first);
     let (mut names, mut carve): (Vec<String>, Vec<View>) = first.carve.into_iter().unzip();
-    let mut held_out = first.held_out;
+    let (mut held_out, turned_from) = (first.held_out, carve.len());
     let Some(second) = second.map(views) else {
         cli::warn(
             "the stone lay on one side only, which no photograph sees: turn it over and photograph it again for a smaller hull (turned_over = true)",
         );
-        return Ok(Found { names, views: carve, held_out, aligned: None, adjusted });
+        return Ok(Found { names, views: carve, turned_from, held_out, aligned: None, adjusted });
     };
     let (second_names, second_carve): (Vec<String>, Vec<View>) = second.carve.into_iter().unzip();
     let found = align(&carve, &second_carve).context("the stone turned over")?;
@@ -46,7 +46,7 @@ pub fn read(args: &Args, names: &[String], file: &Path) -> anyhow::Result<Found>
     let (held_names, held_views): (Vec<String>, Vec<View>) = second.held_out.into_iter().unzip();
     held_out.extend(held_names.into_iter().zip(found.place.views(&held_views)));
     let aligned = Some([found.overlap, found.residual]);
-    Ok(Found { names, views: carve, held_out, aligned, adjusted })
+    Ok(Found { names, views: carve, turned_from, held_out, aligned, adjusted })
 }
 
 /// The turntable, and the photographs of both sides of the stone that have a mask.

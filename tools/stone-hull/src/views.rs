@@ -18,6 +18,8 @@ pub struct Found {
     pub names: Vec<String>,
     /// Their views.
     pub views: Vec<View>,
+    /// The first of them that shows the stone turned over.
+    pub turned_from: usize,
     /// Photographs that do not carve.
     pub held_out: Vec<(String, View)>,
     /// How the second place of the stone was found: overlap, and residual [m].
@@ -114,8 +116,9 @@ fn posed(args: &Args, names: &[String], path: &Path) -> anyhow::Result<Found> {
         all.push((name.clone(), View { camera, field: field.into() }));
     }
     let parted = Parted::new(args, all)?;
+    let turned_from = parted.carve.len();
     let (names, views) = parted.carve.into_iter().unzip();
-    Ok(Found { names, views, held_out: parted.held_out, aligned: None, adjusted: None })
+    Ok(Found { names, views, turned_from, held_out: parted.held_out, aligned: None, adjusted: None })
 }
 
 /// The camera for a mask of another size than it was made for.

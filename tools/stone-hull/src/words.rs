@@ -43,9 +43,9 @@ pub fn percent(share: f64) -> Shown {
 
 /// Warns when nothing gives the scale.
 pub fn scale(args: &Args, length: f64) {
-    if args.poses.is_some() && args.length.is_none() {
+    if args.poses.is_some() && args.length.is_none() && args.tag_size.is_none() {
         cli::warn(&format!(
-            "lengths are in the unit of the poses (the stone is {} long): give --length with the length of the stone if they are not metres",
+            "lengths are in the unit of the poses (the stone is {} long): give --length with the length of the stone, or --tag-size, if they are not metres",
             Shown(length)
         ));
     }

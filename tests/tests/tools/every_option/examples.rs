@@ -133,6 +133,7 @@ pub const EXAMPLES: &[&str] = &[
     "stone-mask photographs/01.png photographs/02.png --object dark --output masks2 --quiet",
     "stone-hull photographs --masks masks --turntable turntable.toml --cells 20 --length 0.06 -o hull.ply --report r.json --threads 2 -q",
     "stone-hull photographs --masks masks --poses poses.txt --poses-size 64x48 --output hull2.ply --cells 16 --quiet",
+    "stone-hull tagged --masks tagged-masks --poses tagged.txt --tag-size 0.02 --cells 20 -o tagged.ply",
     "stone-hull photographs --masks masks --poses matrices --cells 16 --refine -o hull3.ply",
     "stone-hull photographs --masks masks --turntable turntable.toml --cells 16 --hold-out 3 --adjust -o hull4.ply",
     "stone-clean library/rock_1_1.ply --scale 2 --faces 200 --cells 20 -o clean.ply --report r.json --threads 2 -q",

@@ -2,7 +2,7 @@
 
 use geom::Vec3;
 use geom::mesh::{TriMesh, cuboid};
-use photos::rendered::Studio;
+use photos::rendered::{Studio, Tag};
 use photos::turntable::{Place, Turntable};
 use photos::{Camera, photograph};
 use std::fs;
@@ -49,7 +49,30 @@ pub fn write(folder: &Path) {
         }
     }
     fs::write(folder.join("poses.txt"), poses).expect("written");
+    tagged(folder, &block, &table);
     fs::write(folder.join("pebble.ply"), pebble()).expect("written");
+}
+
+/// Larger ones with a tag of 20 mm beside the block: `tagged/01.png` to `06.png`, `tagged-masks`, `tagged.txt`.
+fn tagged(folder: &Path, block: &TriMesh, table: &Turntable) {
+    let [w, h] = SIZE.map(|size| 6 * size);
+    let tag = Tag { at: Vec3::new(0.045, 0.0, -0.0151), size: 0.02 };
+    for name in ["tagged", "tagged-masks"] {
+        fs::create_dir(folder.join(name)).expect("made");
+    }
+    let mut poses = String::new();
+    for k in 0..COUNT {
+        let place = Place { photograph: k, ring: 0, angle_deg: 60.0 * k as f64 };
+        let camera = table.camera(&place, SIZE[0], SIZE[1]).resized(6.0);
+        let (mut photograph, mask) = Studio::new(w, h, 0.004).photograph(block, &camera);
+        tag.draw(&mut photograph, &mask, &camera);
+        let name = format!("0{}.png", k + 1);
+        let png = |values: &[u8]| photograph::png(w, h, values).expect("a picture");
+        fs::write(folder.join("tagged").join(&name), png(&photograph.encoded())).expect("written");
+        fs::write(folder.join("tagged-masks").join(&name), png(&mask.coverage)).expect("written");
+        poses += &row(&name, &camera);
+    }
+    fs::write(folder.join("tagged.txt"), poses).expect("written");
 }
 
 /// A line of a table of poses: the matrix K (R | t).
