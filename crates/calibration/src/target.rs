@@ -118,7 +118,7 @@ struct Measured {
 }
 
 fn sheet(file: &Path) -> Result<Sheet> {
-    let text = std::fs::read_to_string(file).map_err(crate::error::file(file, "cannot read the data"))?;
+    let text = stream::whole::text(file).map_err(crate::error::file(file, "cannot read the data"))?;
     Sheet::parse(&file.display().to_string(), &text)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::exit::usage;
 use anyhow::Context;
+use geom::number::NumberError;
 use std::{
     convert::Infallible,
     fmt,
@@ -69,7 +70,10 @@ impl Source {
                 Err(anyhow::anyhow!("{self}: is a folder: name a file in it"))
             }
             Source::File(path) => {
-                let file = File::open(path).with_context(|| self.missing(path))?;
+                let file = stream::whole::open(path).map_err(|e| match e.kind() {
+                    io::ErrorKind::InvalidInput => anyhow::anyhow!("{self}: {e}"),
+                    _ => anyhow::Error::new(e).context(self.missing(path)),
+                })?;
                 Ok(Box::new(file))
             }
         }
@@ -91,18 +95,18 @@ impl Source {
     /// As [`Source::open`]; a read that fails.
     pub fn read_all(&self) -> anyhow::Result<Vec<u8>> {
         let mut bytes = Vec::new();
-        self.open()?.read_to_end(&mut bytes).with_context(|| format!("{self}: cannot read"))?;
+        stream::whole::rest(&mut self.open()?, &mut bytes).with_context(|| format!("{self}: cannot read"))?;
         Ok(bytes)
     }
 
     /// Reads everything as text.
     ///
     /// # Errors
-    /// As [`Source::read_all`]; bytes that are not UTF-8.
+    /// As [`Source::open`]; a read that fails; too much, or bytes that are not UTF-8.
     pub fn read_text(&self) -> anyhow::Result<String> {
-        String::from_utf8(self.read_all()?).map_err(|e| {
-            let at = e.utf8_error().valid_up_to();
-            anyhow::anyhow!("{self}: byte {at}: not UTF-8 text: is it the right file?")
+        stream::whole::rest_of_text(&mut self.open()?).map_err(|e| match e.kind() {
+            io::ErrorKind::InvalidData => anyhow::anyhow!("{self}: {e}: is it the right file?"),
+            _ => anyhow::Error::new(e).context(format!("{self}: cannot read")),
         })
     }
 
@@ -166,10 +170,10 @@ fn unit(text: &str) -> Result<f64, String> {
 }
 
 fn factor(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err("give a number above 0, such as 0.001 for millimetres".into()),
-    }
+    geom::number::positive(text).map_err(|e| match e {
+        NumberError::TooLarge(_) => e.to_string(),
+        _ => "give a number above 0, such as 0.001 for millimetres".into(),
+    })
 }
 
 impl Input {

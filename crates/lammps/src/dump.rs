@@ -5,7 +5,10 @@
 //! ```
 
 use std::collections::VecDeque;
-use std::io::{self, BufRead};
+use std::io::{self, BufRead, Read};
+
+/// Longest line [B].
+const LONGEST: u64 = 1 << 20;
 
 /// A block of rows, such as a frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -112,7 +115,9 @@ impl<R: BufRead> Reader<R> {
     /// The next line; `None` at the end, also where a line has no end.
     fn line(&mut self) -> io::Result<Option<&str>> {
         self.line.clear();
-        self.input.read_line(&mut self.line)?;
+        if self.input.by_ref().take(LONGEST).read_line(&mut self.line)? as u64 == LONGEST {
+            return Err(io::Error::other("a line of more than a mebibyte"));
+        }
         Ok(self.line.strip_suffix('\n'))
     }
 

@@ -8,22 +8,34 @@ use std::io::{self, Read};
 use std::os::unix::fs::FileTypeExt;
 use std::path::Path;
 
+/// Longest text [B].
+pub const TEXT: u64 = 256 << 20;
+
 /// Memory of a pipe where the free memory is unknown [B].
 const UNKNOWN: u64 = 8 << 30;
+
+/// Opens a file, or a named pipe.
+///
+/// # Errors
+/// A path that cannot be opened; a device, a folder.
+pub fn open(path: &Path) -> io::Result<File> {
+    let file = File::open(path)?;
+    match no_file(file.metadata()?.file_type()) {
+        Some(what) => {
+            let why = format!("is a {what}, and a file is needed");
+            Err(io::Error::new(io::ErrorKind::InvalidInput, why))
+        }
+        None => Ok(file),
+    }
+}
 
 /// Reads a file, or a named pipe to its end.
 ///
 /// # Errors
-/// A path that cannot be read; a device; a pipe that is too long.
+/// As [`open`]; a read that fails; a pipe that is too long.
 pub fn file(path: &Path) -> io::Result<Vec<u8>> {
-    let mut file = File::open(path)?;
+    let mut file = open(path)?;
     let about = file.metadata()?;
-    if let Some(what) = no_file(about.file_type()) {
-        return Err(io::Error::new(
-            io::ErrorKind::InvalidInput,
-            format!("is a {what}, and a file is needed"),
-        ));
-    }
     let mut bytes = Vec::new();
     if about.is_file() {
         bytes.try_reserve_exact(usize::try_from(about.len()).unwrap_or(usize::MAX))?;
@@ -35,9 +47,22 @@ pub fn file(path: &Path) -> io::Result<Vec<u8>> {
 /// The same, as text.
 ///
 /// # Errors
-/// As [`file`]; bytes that are not UTF-8, with the place.
+/// As [`open`]; more than [`TEXT`] bytes; bytes that are not UTF-8, with the place.
 pub fn text(path: &Path) -> io::Result<String> {
-    String::from_utf8(file(path)?).map_err(|e| {
+    rest_of_text(&mut open(path)?)
+}
+
+/// What is left of a stream, as text: a scene, a recipe, a table.
+///
+/// # Errors
+/// A read that fails; more than [`TEXT`] bytes; bytes that are not UTF-8, with the place.
+pub fn rest_of_text(from: &mut impl Read) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    if from.take(TEXT + 1).read_to_end(&mut bytes)? as u64 > TEXT {
+        let why = format!("more than {} MiB of text: is it the right file?", TEXT >> 20);
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, why));
+    }
+    String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
         io::Error::new(io::ErrorKind::InvalidData, format!("byte {at} is not UTF-8 text"))
     })
@@ -95,6 +120,8 @@ mod tests {
         let why = up_to(&mut io::repeat(7), &mut bytes, 1 << 20).unwrap_err().to_string();
         assert!(why.contains("more than 1 MiB") && bytes.len() <= (1 << 20) + 1, "{why}");
         assert!(half_of_the_free_memory() > 1 << 20);
+        let why = rest_of_text(&mut io::repeat(b'a')).unwrap_err().to_string();
+        assert!(why.contains("more than 256 MiB of text"), "{why}");
     }
 
     #[test]

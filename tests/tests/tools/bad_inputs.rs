@@ -213,8 +213,14 @@ fn clouds_that_are_damaged_or_no_clouds() {
             failed("cloud-crop folder", &["folder", "is a folder", "name a file"]),
             failed("dem-view cut.ply", &["cut.ply", "promises 400 rows"]),
             // Devices have no end.
-            failed("cloud-crop /dev/zero", &["/dev/zero", "no known cloud format"]),
-            failed("dem-view /dev/zero", &["/dev/zero", "no known cloud format"]),
+            failed("cloud-crop /dev/zero", &["/dev/zero", "is a device, and a file is needed"]),
+            failed("dem-view /dev/zero", &["/dev/zero", "is a device"]),
+            failed("dem-run /dev/zero --check", &["/dev/zero", "is a device"]),
+            failed("stage-split /dev/zero --at 0,0,1,0,0,-1 --keep upstream", &["/dev/zero", "is a device"]),
+            failed("lab-test heap /dev/zero", &["/dev/zero", "is a device"]),
+            failed("calibrate /dev/zero", &["/dev/zero", "is a device"]),
+            failed("stone-clean /dev/zero --faces 100", &["/dev/zero", "is a device"]),
+            failed("stone-mask /dev/zero -o masks", &["/dev/zero", "is a device"]),
             failed(
                 "wallgen --radius 0.01 --roughness 0.001 --from-mesh /dev/zero",
                 &["/dev/zero", "is a device, and a file is needed"],

@@ -51,8 +51,7 @@ pub fn read(args: &Args, names: &[String], file: &Path) -> anyhow::Result<Found>
 
 /// The turntable, and the photographs of both sides of the stone that have a mask.
 fn sides(args: &Args, names: &[String], file: &Path) -> anyhow::Result<(Turntable, [Named; 2])> {
-    let text =
-        std::fs::read_to_string(file).with_context(|| format!("{}: cannot read it", file.display()))?;
+    let text = stream::whole::text(file).with_context(|| format!("{}: cannot read it", file.display()))?;
     let table = Turntable::parse(&text).with_context(|| file.display().to_string())?;
     let places = table.places(names).with_context(|| file.display().to_string())?;
     let used: Vec<String> = places.iter().map(|p| names[p.photograph].clone()).collect();

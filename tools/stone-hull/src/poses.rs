@@ -6,9 +6,8 @@ use std::path::Path;
 
 /// Reads a table, COLMAP's folder, or a folder with one matrix for each photograph (NAME.txt or NAME_P.txt).
 pub fn read(path: &Path) -> anyhow::Result<Vec<Pose>> {
-    let text = |path: &Path| {
-        std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
-    };
+    let text =
+        |path: &Path| stream::whole::text(path).with_context(|| format!("cannot read {}", path.display()));
     if !path.is_dir() {
         return Ok(table(&text(path)?)?);
     }

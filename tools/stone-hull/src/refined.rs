@@ -24,8 +24,8 @@ pub fn refined(args: &Args, found: &Found, hull: &TriMesh) -> anyhow::Result<(Tr
             .par_iter()
             .map(|(name, view)| {
                 let path = args.photographs.join(name);
-                let bytes =
-                    std::fs::read(&path).with_context(|| format!("{}: cannot open it", path.display()))?;
+                let bytes = stream::whole::file(&path)
+                    .with_context(|| format!("{}: cannot open it", path.display()))?;
                 let photograph = Photograph::read(&bytes).with_context(|| path.display().to_string())?;
                 let size = [photograph.width as f64, photograph.height as f64];
                 if size != view.field.frame() {

@@ -51,7 +51,7 @@ pub fn measured(args: &Args, found: &Found, size: f64) -> anyhow::Result<TagScal
 /// The tags of a photograph.
 fn on_photograph(args: &Args, name: &str, place: usize, camera: &Camera) -> anyhow::Result<Vec<Sighting>> {
     let path = args.photographs.join(name);
-    let bytes = std::fs::read(&path).with_context(|| format!("{}: cannot open it", path.display()))?;
+    let bytes = stream::whole::file(&path).with_context(|| format!("{}: cannot open it", path.display()))?;
     let photograph = Photograph::read(&bytes).with_context(|| path.display().to_string())?;
     let (width, height) = (photograph.width, photograph.height);
     if width.min(height) < SMALLEST {

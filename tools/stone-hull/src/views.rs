@@ -174,7 +174,7 @@ fn silhouette(args: &Args, name: &str) -> anyhow::Result<Option<Silhouette>> {
         return Ok(None);
     }
     let failed = || path.display().to_string();
-    let bytes = std::fs::read(&path).with_context(failed)?;
+    let bytes = stream::whole::file(&path).with_context(failed)?;
     let (width, height, values) = photograph::read_values(&bytes).with_context(failed)?;
     let mask = Mask::given(width, height, values);
     let on_frame = mask.on_frame();

@@ -53,7 +53,7 @@ fn stone_library(args: Args) -> anyhow::Result<Report> {
 
 fn scanned(args: &Args, path: &std::path::Path) -> anyhow::Result<Entry> {
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).with_context(|| format!("{name}: cannot open it"))?;
+    let bytes = stream::whole::file(path).with_context(|| format!("{name}: cannot open it"))?;
     let mut mesh = mesh::from_bytes(&bytes).with_context(|| name.clone())?;
     mesh.scale(args.lengths.factor().unwrap_or(1.0));
     let stone = Stone::new(&mesh, args.lengths.factor().is_some()).with_context(|| name.clone())?;

@@ -42,7 +42,7 @@ pub fn png(mask: &Mask, note: Option<&Note>) -> anyhow::Result<Vec<u8>> {
 
 /// The mask of a file, if it has this stamp and is whole.
 pub fn read(path: &Path, stamp: &str) -> Option<Mask> {
-    let bytes = std::fs::read(path).ok()?;
+    let bytes = stream::whole::file(path).ok()?;
     let reader = png::Decoder::new(Cursor::new(&bytes)).read_info().ok()?;
     let texts = &reader.info().uncompressed_latin1_text;
     let text = &texts.iter().find(|text| text.keyword == KEYWORD)?.text;

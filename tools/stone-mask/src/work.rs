@@ -62,7 +62,7 @@ pub fn masks(args: &Args, photographs: &[PathBuf]) -> anyhow::Result<Vec<Done>> 
 
 /// One photograph.
 fn one(args: &Args, settings: &MaskSettings, path: &Path) -> anyhow::Result<Done> {
-    let bytes = std::fs::read(path).context("cannot open it")?;
+    let bytes = stream::whole::file(path).context("cannot open it")?;
     let name = Path::new(path.file_stem().unwrap_or_default()).with_extension("png");
     let file = args.folder.join(&name);
     let given = args.given.as_ref().map(|dir| dir.join(&name)).filter(|p| p.is_file());
@@ -101,7 +101,7 @@ fn one(args: &Args, settings: &MaskSettings, path: &Path) -> anyhow::Result<Done
 
 /// A mask from elsewhere.
 fn taken(path: &Path, photograph: &Photograph) -> anyhow::Result<Mask> {
-    let bytes = std::fs::read(path).context("cannot open it")?;
+    let bytes = stream::whole::file(path).context("cannot open it")?;
     let (width, height, values) = photograph::read_values(&bytes)?;
     if (width, height) != (photograph.width, photograph.height) {
         anyhow::bail!(

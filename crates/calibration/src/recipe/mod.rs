@@ -124,7 +124,7 @@ pub type GivenData = Vec<String>;
 /// What is wrong, and where.
 pub fn read(path: &Path, data: &GivenData) -> Result<Recipe> {
     let name = path.display().to_string();
-    let toml = std::fs::read_to_string(path).map_err(crate::error::file(path, "cannot read the recipe"))?;
+    let toml = stream::whole::text(path).map_err(crate::error::file(path, "cannot read the recipe"))?;
     let text = Text { name: &name, toml: &toml };
     let keys = text.parse()?;
     if keys.parameter.is_empty() || keys.test.is_empty() {

@@ -173,7 +173,7 @@ fn table(file: &str, text: &str) -> Result<Value, CurveError> {
 
 fn checked(file: &str, sets: &[String], files: &mut Vec<PathBuf>) -> Result<Scene, CurveError> {
     let what = format!("{file}: cannot open it (check the path)");
-    let text = std::fs::read_to_string(file).map_err(CurveError::io(what))?;
+    let text = stream::whole::text(Path::new(file)).map_err(CurveError::io(what))?;
     let scene = Scene::new(file, text, sets, Path::new(file).parent().unwrap_or(Path::new("")));
     let scene = scene.map_err(|error| match error {
         SceneError::Override { .. } => CurveError::Usage(error.to_string()),

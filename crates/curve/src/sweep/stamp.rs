@@ -17,8 +17,8 @@ impl Hashes {
         if let Some(known) = self.0.get(path) {
             return Ok(known.clone());
         }
-        let bytes =
-            std::fs::read(path).map_err(CurveError::io(format!("{}: cannot read it", path.display())))?;
+        let bytes = stream::whole::file(path)
+            .map_err(CurveError::io(format!("{}: cannot read it", path.display())))?;
         let hash = stream::sha256(&bytes);
         self.0.insert(path.to_owned(), hash.clone());
         Ok(hash)
