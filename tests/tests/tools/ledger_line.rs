@@ -52,6 +52,16 @@ fn an_elastic_gas_keeps_its_energy_in_the_step_that_is_chosen() {
     let text = tool(folder.path(), "dem-run", &[&["s.toml", "--explain"][..], &sampled].concat());
     let text = String::from_utf8_lossy(&text.stdout).into_owned();
     assert!(text.contains("safety 0.2 instead of 0.5") && text.contains("restitution 1"), "{text}");
+    // Averaged, where damping is not matched to the step.
+    let scene = std::fs::read_to_string(folder.path().join("s.toml")).expect("the scene");
+    for unmatched in [
+        scene.replace("\"hooke\"", "\"walton_braun\""),
+        scene.replace("restitution = 1\n", "normal_damping = 1e-3\n"),
+    ] {
+        std::fs::write(folder.path().join("unmatched.toml"), unmatched).expect("written");
+        let done = succeed(folder.path(), "dem-run", &["unmatched.toml", "-o", "unmatched.mcap"]);
+        assert!(share(&done.stderr).abs() < 2.0, "{}", done.stderr);
+    }
     // Without the ledger nothing is known of it.
     let plain =
         succeed(folder.path(), "dem-run", &["s.toml", "-o", "plain.mcap", "--set", "output.energy=false"]);
