@@ -108,11 +108,12 @@ impl Motion {
         self.swing != Vec3::zeros() && self.swing_frequency != 0.0
     }
 
-    /// Frequency of the fastest vibration or swing [Hz]; 0: none.
+    /// Frequency of the fastest vibration or swing [Hz], also of one that a table describes; 0: none.
     pub fn vibration(&self) -> f64 {
         let of = |m: &Motion| {
             let vibration = if m.vibrates() { m.frequency.abs() } else { 0.0 };
-            vibration.max(if m.swings() { m.swing_frequency.abs() } else { 0.0 })
+            let swing = if m.swings() { m.swing_frequency.abs() } else { 0.0 };
+            vibration.max(swing).max(m.path.as_ref().map_or(0.0, Path::vibration))
         };
         self.parts().map(of).fold(0.0, f64::max)
     }

@@ -4,6 +4,9 @@ use crate::Vec3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+/// Rates below this share of the largest are rest: rounding turns to and fro as well.
+const NOISE: f64 = 1e-6;
+
 /// One row of the table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PathRow {
@@ -119,6 +122,35 @@ impl Path {
         };
         let largest = |a: (f64, f64), b: (f64, f64)| (a.0.max(b.0), a.1.max(b.1));
         self.rows.windows(2).map(of).fold((0.0, 0.0), largest)
+    }
+
+    /// Frequency of its fastest motion to and fro [Hz], with half a period from one reversal to the next; 0: it reverses once at most.
+    pub(super) fn vibration(&self) -> f64 {
+        let shifts = [0, 1, 2].map(|axis| self.rates(|r| r.shift[axis]));
+        let fastest = |rates: &[f64]| rates.iter().map(|rate| rate.abs()).fold(0.0, f64::max);
+        let most = shifts.iter().map(|rates| fastest(rates)).fold(0.0, f64::max);
+        let angles = self.rates(|r| r.angle);
+        let turning = fastest(&angles);
+        let of_shifts = shifts.iter().map(|rates| self.reversals(rates, NOISE * most));
+        let halves = of_shifts.chain([self.reversals(&angles, NOISE * turning)]);
+        0.5 / halves.fold(f64::INFINITY, f64::min)
+    }
+
+    fn rates(&self, of: impl Fn(&PathRow) -> f64) -> Vec<f64> {
+        self.rows.windows(2).map(|w| (of(&w[1]) - of(&w[0])) / (w[1].time - w[0].time)).collect()
+    }
+
+    /// Shortest time between two changes of the sign of a rate [s]; rates up to `noise` are rest. ∞ of fewer than two.
+    fn reversals(&self, rates: &[f64], noise: f64) -> f64 {
+        let (mut shortest, mut last, mut before) = (f64::INFINITY, None, 0.0);
+        for (rate, row) in rates.iter().zip(&self.rows).filter(|(rate, _)| rate.abs() > noise) {
+            if rate * before < 0.0 {
+                shortest = last.map_or(shortest, |last| shortest.min(row.time - last));
+                last = Some(row.time);
+            }
+            before = rate.signum();
+        }
+        shortest
     }
 
     /// Largest distance from where it begins [m].

@@ -98,3 +98,25 @@ fn the_surface_of_a_wall_at_rest_moves_with_the_wall_s_orientation() {
     let velocity = Motion::still().pose(0.0).surface(&table).velocity(&Vec3::new(1.0, 2.0, 0.0));
     assert!((velocity - Vec3::new(-2.0, 0.0, 0.0)).norm() < 1e-12, "{velocity}");
 }
+
+#[test]
+fn a_table_that_goes_to_and_fro_is_a_vibration() {
+    let path = |rows: usize, shift: &dyn Fn(f64) -> Vec3, angle: &dyn Fn(f64) -> f64| {
+        let row = |k: usize| {
+            let time = k as f64 * 1e-3;
+            PathRow { time, shift: shift(time), angle: angle(time) }
+        };
+        let path = Path::new(Vec3::z(), (0..rows).map(row).collect()).unwrap();
+        Motion { path: Some(path), ..Motion::default() }.vibration()
+    };
+    let still = |_| 0.0;
+    // 10 Hz in 100 rows a period, also about an axis, and on a circle.
+    let wave = |t: f64| (20.0 * PI * t).sin();
+    let near = |found: f64| (found - 10.0).abs() < 0.3;
+    assert!(near(path(300, &|t| Vec3::x() * wave(t), &still)));
+    assert!(near(path(300, &|t| Vec3::new(wave(t), wave(t + 0.025), 1e-12 * wave(80.0 * t)), &still)));
+    assert!(near(path(300, &|_| Vec3::zeros(), &wave)));
+    // There and back is none.
+    assert_eq!(path(90, &|t| Vec3::x() * wave(t / 2.0), &still), 0.0);
+    assert_eq!(path(90, &|t| Vec3::x() * t, &still), 0.0);
+}
