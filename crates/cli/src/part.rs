@@ -120,6 +120,12 @@ pub struct NotRenamed {
 impl fmt::Display for NotRenamed {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let (part, path) = (self.part.display(), self.path.display());
+        if !self.part.exists() {
+            return write!(
+                f,
+                "{path} is lost: {part}, which held it until now, was removed, or its folder was"
+            );
+        }
         write!(f, "{part} is complete, but cannot be renamed to {path}: rename it yourself, nothing is lost")
     }
 }
@@ -191,7 +197,8 @@ pub fn parts_of(output: &Path) -> Vec<(PathBuf, bool)> {
 
 /// Whether a living tool writes this unfinished output.
 pub fn is_written(path: &Path) -> bool {
-    let Ok(file) = File::open(path) else { return false };
+    // Opening a pipe would wait for its other end.
+    let Some(file) = path.is_file().then(|| File::open(path).ok()).flatten() else { return false };
     // A shared lock is given back at once, with the file.
     matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
 }

@@ -189,6 +189,10 @@ fn what_a_killed_run_left_is_said_and_never_overwritten() {
     let done = tool(folder, "dem-run", &["s.toml", "--resume", "run.mcap.part", "-o", "rest.mcap"]);
     LOOK.refused("resuming the part of a living run", &done.stderr, &["is still writing run.mcap.part"]);
     assert_eq!((done.code, folder.join("rest.mcap").exists()), (1, false));
+    std::os::unix::fs::symlink("run.mcap.part", folder.join("link.mcap")).expect("a link");
+    let done = tool(folder, "dem-run", &["s.toml", "--resume", "link.mcap", "-o", "rest.mcap"]);
+    LOOK.refused("a link to the part of a living run", &done.stderr, &["is still writing link.mcap"]);
+    assert_eq!((done.code, folder.join("rest.mcap").exists()), (1, false));
     let done = succeed(folder, "dem-run", &["s.toml", "--until", "0.02", "-o", "run.mcap"]);
     living.kill().expect("it lives");
     living.wait().expect("it has ended");
@@ -226,6 +230,25 @@ fn an_output_that_cannot_be_renamed_is_said_to_be_complete() {
         "{said}"
     );
     assert!(read(&folder.join("run.mcap.part")).whole);
+}
+
+/// What was removed while the run went on is not said to be there.
+#[test]
+fn an_output_that_was_removed_is_said_to_be_lost() {
+    let folder = scene();
+    let folder = folder.path();
+    let mut command = Command::new(program("dem-run"));
+    let run = command.current_dir(folder).args(["s.toml", "-o", "run.mcap"]).stderr(Stdio::piped());
+    let run = run.spawn().expect("it starts");
+    let deadline = Instant::now() + Duration::from_secs(60);
+    while !folder.join("run.mcap.part").exists() && Instant::now() < deadline {
+        std::thread::yield_now();
+    }
+    fs::remove_file(folder.join("run.mcap.part")).expect("it is there");
+    let done = run.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&done.stderr);
+    LOOK.refused("a part that is gone", &said, &["run.mcap is lost", "was removed"]);
+    assert!(done.status.code() == Some(1) && !said.contains("rename it"), "{said}");
 }
 
 /// The part of an output that is a link lies beside its target: it is named where it is, and found by the name of the link.

@@ -33,8 +33,8 @@ pub fn say(output: &Output, resumed: Option<&Source>) {
 pub fn resumed(source: &Source) -> anyhow::Result<Source> {
     let Some(path) = source.path() else { return Ok(source.clone()) };
     let parts = match path.exists() {
-        true if cli::is_part(path) => vec![(path.to_owned(), cli::is_written(path))],
-        true => return Ok(source.clone()),
+        // Also by another name: a link.
+        true => vec![(path.to_owned(), cli::is_written(path))],
         false => cli::parts_of(path),
     };
     if let Some((part, _)) = parts.iter().find(|part| part.1) {
