@@ -1,5 +1,6 @@
 //! Lists of finite numbers on a command line, with the place of the first wrong one.
 
+use crate::LARGEST;
 use thiserror::Error;
 
 /// Why a text is not a list of so many finite numbers.
@@ -14,6 +15,14 @@ pub enum NumbersError {
         found: usize,
         /// The text.
         text: String,
+    },
+    /// One that is farther from 0 than [`LARGEST`].
+    #[error("'{part}' at character {at} is beyond {LARGEST:e}: check the exponent")]
+    TooLarge {
+        /// The part between its commas.
+        part: String,
+        /// Where it starts, counted from 1.
+        at: usize,
     },
     /// One that is no finite number.
     #[error("'{part}' at character {at} is not a finite number")]
@@ -36,7 +45,8 @@ pub(crate) fn numbers<const N: usize>(text: &str, offset: usize) -> Result<[f64;
     let mut at = offset + 1;
     for (value, part) in values.iter_mut().zip(parts) {
         *value = match part.trim().parse::<f64>() {
-            Ok(v) if v.is_finite() => v,
+            Ok(v) if v.abs() <= LARGEST => v,
+            Ok(v) if v.is_finite() => return Err(NumbersError::TooLarge { part: part.to_owned(), at }),
             _ => return Err(NumbersError::Number { part: part.to_owned(), at }),
         };
         at += part.chars().count() + 1;

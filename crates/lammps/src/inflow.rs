@@ -2,7 +2,6 @@
 
 use crate::error::Result;
 use dem::setup::Entry;
-use geom::Shown;
 use scene::Plan;
 use stages::inlet::{Arrival, InletStream};
 
@@ -46,13 +45,7 @@ impl Inflow {
 
     /// What a user should know of a run that ends at `end` [s]; `springs`: contacts of the scene have springs.
     pub(crate) fn warnings(&self, end: f64, springs: bool) -> Vec<String> {
-        let short = self.ended.iter().filter(|(_, last)| *last < end * (1.0 - 1e-6)).map(|(index, last)| {
-            let (last, end) = (Shown(*last), Shown(end));
-            format!(
-                "inlet.{index}: the record ends at t = {last} s while grains still came in, and this run at {end} s: nothing comes in after it; \
-                 let the stage upstream run longer, or end this one there (--until)"
-            )
-        });
+        let short = self.ended.iter().filter_map(|(index, last)| stages::inlet::short(*index, *last, end));
         let count = self.histories;
         let histories = (count > 0 && springs).then(|| {
             format!("inlet: {count} contacts of the record have a history, which cannot be given to LAMMPS: they begin without it")

@@ -36,15 +36,8 @@ impl Supply {
 
     /// A warning for each stream that ended while particles still came in, long before the run does, at `end` [s].
     pub(crate) fn ended(&self, end: f64) -> Vec<String> {
-        // The key, not the name of the file: the text is also in the output, whose bytes are the same for a file and a pipe.
-        let warning = |(index, stream): (usize, &InletStream)| {
-            let last = stream.ended().filter(|last| *last < end * (1.0 - 1e-6))?;
-            let (last, end) = (Shown(last), Shown(end));
-            Some(format!(
-                "inlet.{index}: the record ends at t = {last} s while grains still came in, and this run at {end} s: nothing came in after it; \
-                 let the stage upstream run longer, or end this one there (--until)"
-            ))
-        };
+        let warning =
+            |(index, stream): (usize, &InletStream)| stages::inlet::short(index, stream.ended()?, end);
         self.streams.iter().enumerate().filter_map(warning).collect()
     }
 

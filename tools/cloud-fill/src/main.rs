@@ -126,9 +126,11 @@ fn summary(report: &cloud::fill::Report) -> String {
     };
     match &report.sparse {
         None if holes == 0 && !report.scales.is_empty() => format!(
-            "0 points added in 0 holes: holes would be found from {:.3} m wide where the scan is densest, from {:.3} m where it is sparsest",
+            "0 points added in 0 holes: holes would be found from {:.3} m wide where the scan is densest, from {:.3} m where it is sparsest, to \
+             {:.3} m (--max-hole)",
             smallest.clone().fold(f64::INFINITY, f64::min),
-            smallest.fold(0.0, f64::max)
+            smallest.fold(0.0, f64::max),
+            report.max_hole
         ),
         None => format!("{} points added in {holes} holes{checked}", report.added),
         Some(sparse) => format!(

@@ -82,6 +82,9 @@ fn reference_system(header: &Header) -> Option<String> {
     Some(format!("coordinate reference system {name}"))
 }
 
+/// Steps of coordinates that may be meant [m].
+const SCALES: std::ops::Range<f64> = 1e-15..1e15;
+
 /// Refuses scales that would bring all points to one coordinate, and numbers that are none.
 fn sound(header: &Header) -> Result<(), String> {
     let (transforms, bounds) = (header.transforms(), header.bounds());
@@ -91,7 +94,7 @@ fn sound(header: &Header) -> Result<(), String> {
         ("z", transforms.z, bounds.min.z, bounds.max.z),
     ];
     for (axis, Transform { scale, offset }, low, high) in axes {
-        if !(scale.is_finite() && scale != 0.0 && offset.is_finite()) {
+        if !(SCALES.contains(&scale) && offset.abs() <= geom::LARGEST) {
             return Err(format!("the header gives {axis} a scale of {scale} and an offset of {offset} m"));
         }
         if header.number_of_points() > 0 && !(low.is_finite() && high.is_finite()) {

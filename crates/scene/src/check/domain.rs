@@ -17,6 +17,11 @@ impl Check<'_> {
                 return Err(self.wrong(key, "(with source)", &why, "take one of them out"));
             }
         }
+        let mut sides = low.iter().flatten().zip(high.iter().flatten());
+        if let Some((low, high)) = sides.find(|(low, high)| low > high) {
+            let why = format!("is below low, {low} m");
+            return Err(self.wrong("domain.high", format!("{high} m"), &why, "swap them"));
+        }
         for (axis, strain) in strain.axes() {
             let Some(strain) = strain else { continue };
             if !periodic.iter().any(|a| format!("{a:?}").eq_ignore_ascii_case(axis)) {

@@ -86,7 +86,7 @@ impl Check<'_> {
             self.one_of(entry, &[("mass", true), ("count", true)])?;
         }
         self.finite(&key("velocity"), &f.velocity, "m/s")?;
-        self.within(&key("from"), f.from, 0.0, f64::MAX, "s")?;
+        self.within(&key("from"), f.from, 0.0, record::LATEST, "s")?;
         self.until(&key("until"), f.until, f.from)
     }
 

@@ -24,6 +24,7 @@ impl PlanBuilder<'_> {
         self.implausible();
         self.lost_spins(contacts);
         self.forces_of_servos();
+        self.late();
         let most = self.keys().guards.overlap.unwrap_or(dem::setup::Guards::default().overlap);
         // Deeper overlaps are refused.
         let deep = self.deepest().filter(|deep| deep.share > DEEP && deep.share <= most);
@@ -46,6 +47,20 @@ impl PlanBuilder<'_> {
         );
         let warning = self.check.wrong("output.wall_forces", "false", &why, "take it out").to_string();
         self.warnings.push(warning);
+    }
+
+    /// What would begin when the run has ended.
+    fn late(&mut self) {
+        let keys = &self.scene.keys;
+        let Some(end) = keys.time.until else { return };
+        let inserts = keys.insert.iter().enumerate().map(|(k, i)| (format!("insert.{k}.from"), i.from));
+        let bonds = keys.bond.iter().enumerate().map(|(k, b)| (format!("bond.{k}.at"), b.at));
+        let why = format!("is not before the end of the run at {end} s: nothing comes of it");
+        let cure = "give an earlier time, or a later time.until";
+        let late = inserts.chain(bonds).filter(|(_, at)| *at > 0.0 && *at >= end);
+        let late = late.map(|(key, at)| self.check.wrong(&key, format!("{at} s"), &why, cure).to_string());
+        let late: Vec<String> = late.collect();
+        self.warnings.extend(late);
     }
 
     /// Spins that nothing turns are not kept.

@@ -5,8 +5,10 @@
 
 mod announced;
 mod paths;
+mod short;
 mod stream;
 
+pub use short::short;
 pub use stream::InletStream;
 
 use dem::setup::{CrossingBond, Entry, Guide, PairHistory};

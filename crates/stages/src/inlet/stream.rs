@@ -151,7 +151,9 @@ impl InletStream {
     /// Time at which the stream ended while particles still came in [s].
     pub fn ended(&self) -> Option<f64> {
         let watermark = self.order.watermark();
-        (self.known == f64::INFINITY && self.order.last() > STILL_FLOWS * watermark).then_some(watermark)
+        // Without watermarks the last crossing is all that is known.
+        let flows = self.known == f64::INFINITY && self.order.last() > STILL_FLOWS * watermark;
+        flows.then_some(watermark.max(self.order.last()))
     }
 
     fn recorded(&self) -> bool {
