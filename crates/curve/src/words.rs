@@ -33,7 +33,7 @@ pub fn amount(error: &Error, unit: &str) -> String {
         return one(error.size);
     }
     let told = format!("{} ± {}", one(error.size), one(error.interval));
-    if error.within_chance() { format!("{told}, which may be chance,") } else { told }
+    if error.within_chance() { format!("{told} (no difference is seen)") } else { told }
 }
 
 /// How one setting differs from another: `safety × 1.6 (0.8)`, `precision mixed`.
@@ -140,7 +140,7 @@ mod tests {
         );
         assert_eq!(
             said,
-            "safety ÷ 4 (0.05) leaves 0.001 deg ± 0.002 deg, which may be chance, in angle and takes 4.1 times the time"
+            "safety ÷ 4 (0.05) leaves 0.001 deg ± 0.002 deg (no difference is seen) in angle and takes 4.1 times the time"
         );
     }
 

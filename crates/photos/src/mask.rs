@@ -138,3 +138,9 @@ pub fn find_mask(photograph: &Photograph, settings: &MaskSettings) -> Mask {
 fn radius(width: usize, height: usize) -> f64 {
     ((width as f64).hypot(height as f64) / 1000.0).round().max(1.0)
 }
+
+/// The middle one of some values; 0 of none.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}

@@ -3,7 +3,7 @@
 use super::laz::{self, Bytes, Chunk, STACK, Shallow};
 use super::{ReadError, catch};
 use crate::Cloud;
-use geom::Vec3;
+use geom::{Shown, Vec3};
 use las::{Header, LazParallelism, PointData, Reader, ReaderOptions, Transform};
 use std::io::Cursor;
 use std::sync::Arc;
@@ -95,6 +95,7 @@ fn sound(header: &Header) -> Result<(), String> {
     ];
     for (axis, Transform { scale, offset }, low, high) in axes {
         if !(SCALES.contains(&scale) && offset.abs() <= geom::LARGEST) {
+            let (scale, offset) = (Shown(scale), Shown(offset));
             return Err(format!("the header gives {axis} a scale of {scale} and an offset of {offset} m"));
         }
         if header.number_of_points() > 0 && !(low.is_finite() && high.is_finite()) {

@@ -1,6 +1,7 @@
 //! The edge of a region at a fraction of a pixel, in linear light.
 
 use super::beside::{Beside, Sums};
+use super::median;
 use crate::photograph::Photograph;
 use crate::raster::{Nearby, Raster};
 use rayon::prelude::*;
@@ -109,9 +110,4 @@ fn of_pixel(photograph: &Photograph, [x, y]: [usize; 2], [off, on]: [f64; 2]) ->
         2.0 * (on - off).abs() / slope[0].hypot(slope[1]).max(1e-9)
     });
     Some(Near { pixel: y * w + x, coverage, width })
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

@@ -1,6 +1,6 @@
 //! What is doubtful about a mask, alone and among the others.
 
-use super::Mask;
+use super::{Mask, median};
 use geom::Shown;
 use thiserror::Error;
 
@@ -86,9 +86,4 @@ pub fn among(areas: &[f64], widths: &[Option<f64>]) -> Vec<(usize, MaskWarning)>
         }
     }
     warnings
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

@@ -79,6 +79,28 @@ fn doubtful_materials_are_told() {
     warns(&stiff, ONE, &["material.1.young", "stiffer than diamond"]);
 }
 
+#[test]
+fn what_begins_after_the_end_is_told() {
+    let insert = |from: &str| {
+        let grains = "[[insert]]\nmaterial = \"sinter\"\nshape = \"box:0,0,1,1,1,2\"\ndiameter = 0.02\nrate_count = 100\ncount = 3\n";
+        format!("{}{grains}from = {from}\n", with_particles_of_a_file())
+    };
+    let late = ["insert.0.from = 5 s", "is not before the end of the run at 0.01 s", "a later time.until"];
+    warns(&insert("5"), ONE, &late);
+    is_fine(&insert("0.005"), ONE);
+    refuses(&insert("1e308"), ONE, &["insert.0.from", "is outside the range", "give 0 to"]);
+}
+
+#[test]
+fn corners_of_a_domain_that_are_turned_are_refused() {
+    let domain = |low: &str| {
+        let domain = "[domain]\nperiodic = [\"x\"]\nhigh = [1, 1, 1]\n";
+        format!("{}{domain}low = {low}\n", with_particles_of_a_file())
+    };
+    refuses(&domain("[-1, 5, 0]"), ONE, &["domain.high = 1 m", "is below low, 5 m"]);
+    is_fine(&domain("[-1, 1, 0]"), ONE);
+}
+
 /// With a servo the forces on walls are written, whatever the scene says.
 #[test]
 fn forces_that_a_servo_writes_cannot_be_left_out() {
