@@ -82,7 +82,7 @@ fn doubtful_materials_are_told() {
 #[test]
 fn what_begins_after_the_end_is_told() {
     let insert = |from: &str| {
-        let grains = "[[insert]]\nmaterial = \"sinter\"\nshape = \"box:0,0,1,1,1,2\"\ndiameter = 0.02\nrate_count = 100\ncount = 3\n";
+        let grains = "[[insert]]\nmaterial = \"sinter\"\nshape = \"box:0,0,1,1,1,2\"\ndiameter = 0.02\nrate_count = 100\ncount = 3\nvelocity = [0, 0, -1]\n";
         format!("{}{grains}from = {from}\n", with_particles_of_a_file())
     };
     let late = ["insert.0.from = 5 s", "is not before the end of the run at 0.01 s", "a later time.until"];
