@@ -34,6 +34,13 @@ pub fn in_folder(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
+/// The file of a photograph's mask: `IMG.0001.jpg` has the mask `IMG.0001.png`.
+pub fn mask_name(photograph: &Path) -> PathBuf {
+    let mut name = photograph.file_stem().unwrap_or_default().to_owned();
+    name.push(".png");
+    PathBuf::from(name)
+}
+
 /// A photograph in linear light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Photograph {

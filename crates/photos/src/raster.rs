@@ -59,7 +59,30 @@ impl Raster {
 
     /// Without gaps that are narrower than about twice `radius` [px].
     pub fn closed(&self, radius: f64) -> Raster {
-        if radius > 0.0 { self.grown(radius).shrunk(radius) } else { self.clone() }
+        if radius > 0.0 {
+            // With room beyond the frame: what grows up to it would not shrink again.
+            let room = radius as usize + 2;
+            self.with_room(room).grown(radius).shrunk(radius).without_room(room)
+        } else {
+            self.clone()
+        }
+    }
+
+    /// With false pixels around it.
+    fn with_room(&self, room: usize) -> Raster {
+        let (width, height) = (self.width + 2 * room, self.height + 2 * room);
+        let mut pixels = vec![false; width * height];
+        for (y, row) in self.pixels.chunks(self.width).enumerate() {
+            let at = (y + room) * width + room;
+            pixels[at..at + self.width].copy_from_slice(row);
+        }
+        Raster { width, height, pixels }
+    }
+
+    fn without_room(&self, room: usize) -> Raster {
+        let (width, height) = (self.width - 2 * room, self.height - 2 * room);
+        let rows = self.pixels.chunks(self.width).skip(room).take(height);
+        Raster { width, height, pixels: rows.flat_map(|row| row[room..room + width].to_vec()).collect() }
     }
 
     /// The largest region of true pixels that share sides, and the pixels of the others.
@@ -117,5 +140,10 @@ mod tests {
         assert_eq!(thread.opened(1.0).count(), 8);
         let crack = raster(&["#####", "##.##", "#####", "#####"]);
         assert_eq!(crack.closed(1.0).count(), 20);
+        // Near the frame nothing is added, and what the frame cuts stays.
+        let near = raster(&[".....", "..#..", "..#..", "....."]);
+        assert_eq!(near.closed(3.0), near);
+        let cut = raster(&["##...", "##...", "....."]);
+        assert_eq!(cut.closed(2.0), cut);
     }
 }

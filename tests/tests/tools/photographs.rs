@@ -27,6 +27,7 @@ fn masks_that_are_there_stay_and_others_are_found() {
     fs::write(folder.join("masks/02.png"), &two[..two.len() / 2]).expect("written");
     fs::copy(folder.join("masks/04.png"), folder.join("masks/03.png")).expect("copied");
     let again = run("");
+    assert!(again.contains("02.png: was drawn or changed elsewhere, and is written over"), "{again}");
     assert!(again.contains("12 masks, 9 of them found before"), "{again}");
     assert_eq!([bytes(folder, "masks/01.png"), bytes(folder, "masks/02.png")], [one, two]);
     assert_ne!(bytes(folder, "masks/03.png"), bytes(folder, "masks/04.png"));
@@ -74,6 +75,44 @@ fn what_shows_no_tag_is_refused() {
     assert_eq!(done.code, 0, "{}", done.stderr);
     let call = "stone-hull photographs --masks masks --poses poses.txt --tag-size 0.02 --cells 20 -o t.ply";
     let done = line(made.path(), call);
-    let words = "--tag-size: tags were seen 0 times, but none from two directions";
+    let words = "--tag-size: no tag was found";
     assert!(done.code == 1 && done.stderr.contains(words), "{}", done.stderr);
+}
+
+#[test]
+fn names_with_dots_have_masks_of_their_own() {
+    let made = inputs();
+    let folder = made.path();
+    fs::create_dir(folder.join("dots")).expect("made");
+    for k in 1..=3 {
+        let name = format!("IMG.000{k}.png");
+        fs::copy(folder.join(format!("photographs/0{k}.png")), folder.join("dots").join(name))
+            .expect("copied");
+    }
+    let done = line(folder, "stone-mask dots -o dotted -q");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let masks: Vec<bool> = (1..=3).map(|k| folder.join(format!("dotted/IMG.000{k}.png")).exists()).collect();
+    assert_eq!(masks, [true; 3]);
+}
+
+/// Masks of half the size have cameras of half the size; tags are on the photographs as they are.
+#[test]
+fn tags_give_the_scale_beside_smaller_masks() {
+    let made = inputs();
+    let folder = made.path();
+    fs::create_dir(folder.join("half")).expect("made");
+    for k in 1..=6 {
+        let bytes = fs::read(folder.join(format!("tagged-masks/0{k}.png"))).expect("a mask");
+        let (w, h, values) = photos::photograph::read_values(&bytes).expect("a picture");
+        let half: Vec<u8> = (0..w * h / 4).map(|n| values[n / (w / 2) * 2 * w + n % (w / 2) * 2]).collect();
+        let png = photos::photograph::png(w / 2, h / 2, &half).expect("a picture");
+        fs::write(folder.join(format!("half/0{k}.png")), png).expect("written");
+    }
+    let call = "stone-hull tagged --masks half --poses tagged.txt --poses-size 384x288 --tag-size 0.02 --cells 20 -o t.ply --report r.json";
+    let done = line(folder, call);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let report = fs::read_to_string(folder.join("r.json")).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    let factor = report["tags"]["factor"].as_f64().expect("a factor");
+    assert!((factor - 1.0).abs() < 0.005, "{}", done.stderr);
 }

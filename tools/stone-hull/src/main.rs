@@ -23,6 +23,7 @@ fn main() -> ExitCode {
 fn stone_hull(args: Args) -> anyhow::Result<Report> {
     let names = views::names(&args.photographs)?;
     let found = views::read(&args, &names)?;
+    let tags = args.tag_size.map(|size| tags::measured(&args, &found, size)).transpose()?;
     let (mut mesh, samples) = photos::hull(&found.views, args.cells).context("the silhouettes")?;
     let agreement = words::check(&found, &mesh);
     let refinement = if args.refine {
@@ -35,7 +36,6 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
     let held_out = held_out::compared(&found, &mesh);
     let closed = Stone::new(&mesh, true).context("the hull")?;
     let length = ShapeMeasures::of(&closed).sides[0];
-    let tags = args.tag_size.map(|size| tags::measured(&args, &found, size)).transpose()?;
     let factor = tags.map_or(args.length.map_or(1.0, |wanted| wanted / length), |tags| tags.factor);
     mesh.scale(factor);
     let mut out = args.output.open()?;

@@ -1,12 +1,12 @@
 //! Tags beside the stone, which give the scale.
 
 use crate::args::Args;
-use crate::views::Found;
+use crate::views::{Found, resized};
 use crate::words::percent;
 use anyhow::Context;
 use apriltag::{Detector, Family, Image};
 use photos::tags::{Sighting, TagScale, scale};
-use photos::{Camera, Photograph};
+use photos::{Photograph, View};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -18,6 +18,12 @@ const CORRECTED: usize = 1;
 const SMALLEST: usize = 32;
 /// Sides of tags that scatter more are doubtful [–].
 const SCATTER: f64 = 0.02;
+/// Corners that photographs see farther apart are doubtful, in sides of the tag.
+const MISS: f64 = 0.03;
+/// More sightings than these are not left out without a word [–].
+const LEFT_OUT: f64 = 0.2;
+/// A turntable whose lengths are wrong by more is one in other units.
+const PLAUSIBLE: f64 = 3.0;
 
 /// The scale at which the tags have their size.
 pub fn measured(args: &Args, found: &Found, size: f64) -> anyhow::Result<TagScale> {
@@ -29,7 +35,7 @@ pub fn measured(args: &Args, found: &Found, size: f64) -> anyhow::Result<TagScal
             .par_iter()
             .map(|(k, name)| {
                 let place = usize::from(*k >= found.turned_from);
-                let seen = on_photograph(args, name, place, &found.views[*k].camera);
+                let seen = on_photograph(args, name, place, &found.views[*k]);
                 progress.add(1);
                 seen
             })
@@ -45,15 +51,32 @@ pub fn measured(args: &Args, found: &Found, size: f64) -> anyhow::Result<TagScal
             percent(done.deviation)
         ));
     }
+    if done.miss > MISS || done.left_out > LEFT_OUT {
+        cli::warn(&format!(
+            "--tag-size: photographs see the corners of tags {} % of a side apart, and {} % of these sightings were left out: did a tag move, or is one \
+             number there twice? otherwise check the poses",
+            percent(done.miss),
+            percent(done.left_out)
+        ));
+    }
+    if args.turntable.is_some() && !(1.0 / PLAUSIBLE..PLAUSIBLE).contains(&done.factor) {
+        cli::warn(&format!(
+            "--tag-size: lengths become {} times those that camera.distance gives: are both in metres?",
+            geom::Shown(done.factor)
+        ));
+    }
     Ok(done)
 }
 
 /// The tags of a photograph.
-fn on_photograph(args: &Args, name: &str, place: usize, camera: &Camera) -> anyhow::Result<Vec<Sighting>> {
+fn on_photograph(args: &Args, name: &str, place: usize, view: &View) -> anyhow::Result<Vec<Sighting>> {
     let path = args.photographs.join(name);
     let bytes = stream::whole::file(&path).with_context(|| format!("{}: cannot open it", path.display()))?;
     let photograph = Photograph::read(&bytes).with_context(|| path.display().to_string())?;
     let (width, height) = (photograph.width, photograph.height);
+    // The camera is that of the mask, which may be smaller.
+    let frame = view.field.frame().map(|side| side as usize);
+    let camera = resized(&view.camera, frame, [width, height]).with_context(|| name.to_owned())?;
     if width.min(height) < SMALLEST {
         return Ok(Vec::new());
     }
@@ -75,7 +98,7 @@ fn on_photograph(args: &Args, name: &str, place: usize, camera: &Camera) -> anyh
             );
         }
     }
-    let sighting = |(id, corners)| Sighting { tag: (place, id as u32), corners, camera: *camera };
+    let sighting = |(id, corners)| Sighting { tag: (place, id as u32), corners, camera };
     Ok(seen.into_iter().map(sighting).collect())
 }
 

@@ -121,12 +121,12 @@ fn posed(args: &Args, names: &[String], path: &Path) -> anyhow::Result<Found> {
     Ok(Found { names, views, turned_from, held_out: parted.held_out, aligned: None, adjusted: None })
 }
 
-/// The camera for a mask of another size than it was made for.
-fn resized(camera: &Camera, from: [usize; 2], to: [usize; 2]) -> anyhow::Result<Camera> {
+/// The camera for a picture of another size than it was made for.
+pub fn resized(camera: &Camera, from: [usize; 2], to: [usize; 2]) -> anyhow::Result<Camera> {
     let factor = to[0] as f64 / from[0] as f64;
     if (to[1] as f64 - factor * from[1] as f64).abs() > 1.0 {
         anyhow::bail!(
-            "its pose is for {} × {} pixels, its mask has {} × {}: give masks of the same shape (not cropped or turned)",
+            "its pose is for {} × {} pixels, and there are {} × {}: give masks and photographs of the same shape (not cropped or turned)",
             from[0],
             from[1],
             to[0],
@@ -164,7 +164,7 @@ pub fn silhouettes(args: &Args, names: &[String]) -> anyhow::Result<Vec<Option<S
 }
 
 fn mask_path(args: &Args, name: &str) -> PathBuf {
-    args.masks.join(Path::new(name).file_stem().unwrap_or_default()).with_extension("png")
+    args.masks.join(photograph::mask_name(Path::new(name)))
 }
 
 fn silhouette(args: &Args, name: &str) -> anyhow::Result<Option<Silhouette>> {

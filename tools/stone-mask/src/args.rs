@@ -83,10 +83,10 @@ impl Args {
         }
         let mut seen: HashMap<String, &PathBuf> = HashMap::new();
         for path in &all {
-            let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            if let Some(other) = seen.insert(stem.clone(), path) {
+            let mask = photos::photograph::mask_name(path).display().to_string();
+            if let Some(other) = seen.insert(mask.clone(), path) {
                 return Err(cli::usage(format!(
-                    "{}: its mask {stem}.png would replace that of {}: rename one of them",
+                    "{}: its mask {mask} would replace that of {}: rename one of them",
                     path.display(),
                     other.display()
                 )));

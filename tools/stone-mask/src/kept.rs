@@ -9,20 +9,46 @@ use std::path::Path;
 
 /// The keyword of the note in a PNG.
 const KEYWORD: &str = "stone-mask";
+/// To be raised when masks come out differently.
+const METHOD: u32 = 1;
 
 /// What a mask says of itself.
 #[derive(Serialize, Deserialize)]
 pub struct Note {
-    /// Of the photograph, the settings and the version.
-    pub stamp: String,
+    /// Of the photograph, the settings and the method.
+    stamp: String,
+    /// Of the size and the pixels of the mask.
+    pixels: String,
     pub found: Found,
+}
+
+/// What is in the place of a mask.
+pub enum Before {
+    /// The mask that is wanted.
+    Mask(Mask),
+    /// Nothing, or a mask of another photograph, or with other settings.
+    Other,
+    /// What this program has not written, or not so.
+    Foreign,
+}
+
+impl Note {
+    /// Of a mask that was found, with its numbers as they will be read; none of one that was given.
+    pub fn new(stamp: String, mask: &Mask) -> anyhow::Result<Option<Note>> {
+        let Some(found) = mask.found else { return Ok(None) };
+        let note = Note { stamp, pixels: pixels(mask), found };
+        Ok(Some(serde_json::from_str(&serde_json::to_string(&note)?)?))
+    }
 }
 
 /// What a mask depends on, in short.
 pub fn stamp(photograph: &[u8], settings: &MaskSettings) -> String {
-    let version = env!("CARGO_PKG_VERSION");
-    let text = format!("{version} {settings:?} {}", stream::sha256(photograph));
-    stream::sha256(text.as_bytes())
+    stream::sha256(format!("{METHOD} {settings:?} {}", stream::sha256(photograph)).as_bytes())
+}
+
+fn pixels(mask: &Mask) -> String {
+    let size = [mask.width as u64, mask.height as u64].map(u64::to_le_bytes).concat();
+    stream::sha256(&[size, mask.coverage.clone()].concat())
 }
 
 /// A mask as a grey PNG, with its note.
@@ -40,14 +66,27 @@ pub fn png(mask: &Mask, note: Option<&Note>) -> anyhow::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The mask of a file, if it has this stamp and is whole.
-pub fn read(path: &Path, stamp: &str) -> Option<Mask> {
+/// What there is of a mask with this stamp.
+pub fn read(path: &Path, stamp: &str) -> Before {
+    if !path.exists() {
+        return Before::Other;
+    }
+    match noted(path) {
+        Some((note, mask)) if note.stamp == stamp => Before::Mask(mask),
+        Some(_) => Before::Other,
+        None => Before::Foreign,
+    }
+}
+
+/// A mask with its note; none where one of them is missing, or the mask has other pixels than the note says.
+fn noted(path: &Path) -> Option<(Note, Mask)> {
     let bytes = stream::whole::file(path).ok()?;
     let reader = png::Decoder::new(Cursor::new(&bytes)).read_info().ok()?;
     let texts = &reader.info().uncompressed_latin1_text;
     let text = &texts.iter().find(|text| text.keyword == KEYWORD)?.text;
-    let note: Note = serde_json::from_str(text).ok().filter(|note: &Note| note.stamp == stamp)?;
+    let note: Note = serde_json::from_str(text).ok()?;
     drop(reader);
     let (width, height, coverage) = photos::photograph::read_values(&bytes).ok()?;
-    Some(Mask { found: Some(note.found), ..Mask::given(width, height, coverage) })
+    let mask = Mask { found: Some(note.found), ..Mask::given(width, height, coverage) };
+    (pixels(&mask) == note.pixels).then_some((note, mask))
 }

@@ -1,7 +1,7 @@
 //! Photograph by photograph: read, find or take the mask, write it.
 
 use crate::args::Args;
-use crate::kept::{self, Note};
+use crate::kept::{self, Before, Note};
 use anyhow::Context;
 use photos::mask::{Found, among};
 use photos::sheet::Thumbnail;
@@ -63,13 +63,23 @@ pub fn masks(args: &Args, photographs: &[PathBuf]) -> anyhow::Result<Vec<Done>> 
 /// One photograph.
 fn one(args: &Args, settings: &MaskSettings, path: &Path) -> anyhow::Result<Done> {
     let bytes = stream::whole::file(path).context("cannot open it")?;
-    let name = Path::new(path.file_stem().unwrap_or_default()).with_extension("png");
+    let name = photograph::mask_name(path);
     let file = args.folder.join(&name);
     let given = args.given.as_ref().map(|dir| dir.join(&name)).filter(|p| p.is_file());
     let stamp = kept::stamp(&bytes, settings);
-    let before = if given.is_none() { kept::read(&file, &stamp) } else { None };
+    let before = match kept::read(&file, &stamp) {
+        Before::Mask(mask) if given.is_none() => Some(mask),
+        Before::Foreign if given.is_none() => {
+            let name = name.display();
+            cli::warn(&format!(
+                "{name}: was drawn or changed elsewhere, and is written over: --given DIR takes such masks from another folder"
+            ));
+            None
+        }
+        _ => None,
+    };
     let read = || Photograph::read(&bytes);
-    let (mask, origin, photograph) = match before {
+    let (mut mask, origin, photograph) = match before {
         Some(mask) => (mask, Origin::Before, args.sheet.is_some().then(read).transpose()?),
         None => {
             let photograph = read()?;
@@ -84,7 +94,9 @@ fn one(args: &Args, settings: &MaskSettings, path: &Path) -> anyhow::Result<Done
         }
     };
     if origin != Origin::Before {
-        let png = kept::png(&mask, mask.found.map(|found| Note { stamp, found }).as_ref())?;
+        let note = Note::new(stamp, &mask)?;
+        mask.found = note.as_ref().map(|note| note.found);
+        let png = kept::png(&mask, note.as_ref())?;
         let mut out = cli::OutputStream::file(&file)?;
         out.write_all(&png)?;
         out.commit()?;

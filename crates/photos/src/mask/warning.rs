@@ -33,7 +33,7 @@ pub enum MaskWarning {
     Background { share: f64, word: &'static str },
     #[error("weak contrast: stone and background explain only {} % of the variance of its values; use an even background that is much darker or brighter than the stone", Shown((100.0 * .separation).round()))]
     Contrast { separation: f64 },
-    #[error("its mask has {} times the median area of all masks: background may be in it, or another stone; check the contact sheet", Shown((100.0 * .times).round() / 100.0))]
+    #[error("its mask has {} % of the median area of all masks: {}; check the contact sheet", Shown((100.0 * .times).round()), if *.times > 1.0 { "background may be in it, or another stone" } else { "some of the stone may be missing" })]
     Area { times: f64 },
 }
 
