@@ -40,7 +40,7 @@ pub fn residuals(views: &[View], ball: &Ball, each: usize) -> Vec<f64> {
 }
 
 /// The largest distance to the cones of the other views along a ray; below 0 it misses them all.
-fn touch(views: &[View], order: &[usize], own: usize, pixel: [f64; 2], ball: &Ball) -> f64 {
+pub(crate) fn touch(views: &[View], order: &[usize], own: usize, pixel: [f64; 2], ball: &Ball) -> f64 {
     let camera = &views[own].camera;
     let (eye, ray) = (camera.eye(), camera.ray(pixel));
     let middle = ray.dot(&(ball.centre - eye));

@@ -15,6 +15,7 @@
 //! adjusted    a turntable whose numbers are a little wrong
 //! turned      a stone that was turned over
 //! refine      from the hull inwards, by correlation of photographs
+//! suspects    views that do not agree with most others
 //! tags        the scale from tags of known size
 //! rendered    photographs of a mesh, for tests and trials
 //! sheet       many photographs with their outlines on one picture
@@ -35,6 +36,7 @@ pub mod raster;
 pub mod refine;
 pub mod rendered;
 pub mod sheet;
+pub mod suspects;
 pub mod tags;
 pub mod threshold;
 pub mod turned;

@@ -140,7 +140,7 @@ fn radius(width: usize, height: usize) -> f64 {
 }
 
 /// The middle one of some values; 0 of none.
-fn median(mut values: Vec<f64>) -> f64 {
+pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

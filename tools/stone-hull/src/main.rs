@@ -25,7 +25,7 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
     let found = views::read(&args, &names)?;
     let tags = args.tag_size.map(|size| tags::measured(&args, &found, size)).transpose()?;
     let (mut mesh, samples) = photos::hull(&found.views, args.cells).context("the silhouettes")?;
-    let agreement = words::check(&found, &mesh);
+    let agreement = words::check(&found, &mesh, args.cells);
     let refinement = if args.refine {
         let (finer, refinement) = refined::refined(&args, &found, &mesh)?;
         mesh = finer;

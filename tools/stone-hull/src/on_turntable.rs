@@ -59,6 +59,15 @@ fn sides(args: &Args, names: &[String], file: &Path) -> anyhow::Result<(Turntabl
         let other = names.iter().find(|n| !used.contains(n)).map_or("", String::as_str);
         cli::warn(&format!("{} photographs are in no [[ring]], such as {other}", names.len() - used.len()));
     }
+    for ring in 0..table.ring.len() {
+        let of_ring: Vec<&str> =
+            places.iter().zip(&used).filter(|(p, _)| p.ring == ring).map(|(_, name)| name.as_str()).collect();
+        if let Some([before, after]) = gap(&of_ring) {
+            cli::warn(&format!(
+                "the numbers of the photographs jump from {before} to {after}: is one missing? each counts as one step of the table"
+            ));
+        }
+    }
     let mut sides = [Vec::new(), Vec::new()];
     for ((place, name), silhouette) in places.iter().zip(&used).zip(silhouettes(args, &used)?) {
         let Some((field, size)) = silhouette else { continue };
@@ -66,6 +75,20 @@ fn sides(args: &Args, names: &[String], file: &Path) -> anyhow::Result<(Turntabl
         sides[side].push((name.clone(), Turned { place: *place, field: field.into(), size }));
     }
     Ok((table, sides))
+}
+
+/// The first two photographs of a ring whose numbers are farther apart than those of the others.
+fn gap<'a>(names: &[&'a str]) -> Option<[&'a str; 2]> {
+    let number = |name: &str| {
+        let stem = Path::new(name).file_stem()?.to_str()?;
+        let digits = stem.len() - stem.bytes().rev().take_while(u8::is_ascii_digit).count();
+        stem[digits..].parse::<u64>().ok()
+    };
+    let numbers: Vec<u64> = names.iter().map(|name| number(name)).collect::<Option<_>>()?;
+    let steps: Vec<u64> = numbers.windows(2).map(|w| w[1].saturating_sub(w[0])).collect();
+    let least = *steps.iter().min()?;
+    let jump = steps.iter().position(|step| *step > least)?;
+    Some([names[jump], names[jump + 1]])
 }
 
 /// The turntable by --adjust: with the camera from the first side, and the angles from each.

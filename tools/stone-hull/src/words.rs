@@ -4,11 +4,13 @@ use crate::args::Args;
 use crate::views::Found;
 use geom::Shown;
 use geom::mesh::TriMesh;
-use photos::Turntable;
 use photos::adjusted::Adjustment;
+use photos::coherence::Ball;
 use photos::hull::Agreement;
 use photos::refine::Refinement;
+use photos::{Turntable, View};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// A mask that the hull covers less is doubtful.
 const MISSED: f64 = 0.03;
@@ -16,9 +18,14 @@ const MISSED: f64 = 0.03;
 const NAMED: usize = 8;
 
 /// Compares the hull with every mask; names the photographs that do not fit.
-pub fn check(found: &Found, mesh: &TriMesh) -> Vec<Agreement> {
+pub fn check(found: &Found, mesh: &TriMesh, cells: usize) -> Vec<Agreement> {
     let all: Vec<Agreement> = found.views.par_iter().map(|v| v.agreement(mesh)).collect();
     let mut worst: Vec<usize> = (0..all.len()).filter(|k| all[*k].missed > MISSED).collect();
+    let suspects = if worst.is_empty() { Vec::new() } else { suspects(found, mesh) };
+    if !suspects.is_empty() {
+        blame(found, mesh, &suspects, cells);
+        return all;
+    }
     worst.sort_by(|a, b| all[*b].missed.total_cmp(&all[*a].missed));
     for k in worst.iter().take(NAMED) {
         cli::warn(&format!(
@@ -34,6 +41,42 @@ pub fn check(found: &Found, mesh: &TriMesh) -> Vec<Agreement> {
         ));
     }
     all
+}
+
+/// Photographs that do not agree with most others of their side, two by two.
+fn suspects(found: &Found, mesh: &TriMesh) -> Vec<usize> {
+    let (low, high) = geom::grid::bounds(&mesh.vertices);
+    let ball = Ball { centre: (low + high) / 2.0, radius: (high - low).norm() };
+    let (first, second) = found.views.split_at(found.turned_from.min(found.views.len()));
+    let second = photos::suspects::suspects(second, &ball).into_iter().map(|k| k + first.len());
+    photos::suspects::suspects(first, &ball).into_iter().chain(second).collect()
+}
+
+/// The other views; a stone that was turned over is laid back again.
+fn without(found: &Found, suspects: &[usize]) -> Vec<View> {
+    let side = |of: Range<usize>| -> Vec<View> {
+        of.filter(|k| !suspects.contains(k)).map(|k| found.views[k].clone()).collect()
+    };
+    let (mut first, second) = (side(0..found.turned_from), side(found.turned_from..found.views.len()));
+    let back = found.aligned.and_then(|_| photos::align(&first, &second).ok());
+    first.extend(back.map_or(second.clone(), |back| back.place.views(&second)));
+    first
+}
+
+/// Names photographs that alone make the others look wrong, and what they cost.
+fn blame(found: &Found, mesh: &TriMesh, suspects: &[usize], cells: usize) {
+    let names: Vec<&str> = suspects.iter().map(|k| found.names[*k].as_str()).collect();
+    let shown = names.iter().take(NAMED).copied().collect::<Vec<_>>().join(", ");
+    let more = if names.len() > NAMED { format!(" and {} more", names.len() - NAMED) } else { String::new() };
+    let without = photos::hull(&without(found, suspects), cells).map_or(String::new(), |(other, _)| {
+        let (with, without) = (mesh.volume(), other.volume());
+        let share = percent(with / without - 1.0);
+        format!("; the volume is {} m³ with and {} m³ without them ({share} %)", Shown(with), Shown(without))
+    });
+    cli::warn(&format!(
+        "{shown}{more}: their silhouettes do not agree with most others: check their order, whether one before them is missing, their poses, and \
+         their masks{without}: the hull is no upper bound"
+    ));
 }
 
 /// A share in percent, to a tenth.

@@ -22,7 +22,7 @@ pub struct Note {
     pub found: Found,
 }
 
-/// What is in the place of a mask.
+/// What is there where a mask will be.
 pub enum Before {
     /// The mask that is wanted.
     Mask(Mask),

@@ -125,3 +125,28 @@ fn a_photograph_that_did_not_carve_tells_a_wrong_pose() {
         assert!(union > 0.92 && wrong < union - 0.02, "{union} {wrong}");
     }
 }
+
+/// One wrong view makes the hull miss all masks; two by two it stands out. Two that were swapped, and one that is missing from a ring.
+#[test]
+fn views_in_the_wrong_place_stand_out() {
+    let mesh = stone();
+    let cameras = [ring(18, 0.0), ring(18, 35.0)].concat();
+    let right = views(&mesh, &cameras);
+    let (low, high) = geom::grid::bounds(&mesh.vertices);
+    let ball = photos::coherence::Ball { centre: (low + high) / 2.0, radius: (high - low).norm() };
+    assert_eq!(photos::suspects::suspects(&right, &ball), Vec::<usize>::new());
+    let placed = |order: &dyn Fn(usize) -> usize| -> Vec<View> {
+        let view = |k| View { camera: cameras[k], field: right[order(k)].field.clone() };
+        (0..right.len()).map(view).collect()
+    };
+    let swapped = placed(&|k| match k {
+        4 => 8,
+        8 => 4,
+        k => k,
+    });
+    assert_eq!(photos::suspects::suspects(&swapped, &ball), [4, 8]);
+    // From the fourteenth on, each photograph is taken for the one before.
+    let missing = placed(&|k| if (14..17).contains(&k) { k + 1 } else { k });
+    let found = photos::suspects::suspects(&missing, &ball);
+    assert!(!found.is_empty() && found.iter().all(|k| (14..17).contains(k)), "{found:?}");
+}
