@@ -34,7 +34,7 @@ pub fn read(args: &Args, names: &[String], file: &Path) -> anyhow::Result<Found>
     let (mut held_out, turned_from) = (first.held_out, carve.len());
     let Some(second) = second.map(views) else {
         cli::warn(
-            "the stone lay on one side only, which no photograph sees: turn it over and photograph it again for a smaller hull (turned_over = true)",
+            "the stone lay on one side only, which no photograph sees, and that costs some 2 % of its volume: turn it over and photograph it again (turned_over = true)",
         );
         return Ok(Found { names, views: carve, turned_from, held_out, aligned: None, adjusted });
     };
