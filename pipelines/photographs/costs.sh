@@ -20,7 +20,8 @@ hull() {
 # rings TABLE PATTERN: a turntable with those rings only whose photographs match.
 rings() { awk -v RS= -v wanted="$2" 'NR == 1 || $0 ~ wanted { print $0 "\n" }' "$1"; }
 
-for step in 10 30; do [ -e "$out/$step/turntable.toml" ] || $render "$stone" "$out/$step" 480 $step >&2; done
+rm -rf "$out/10" "$out/30" "$out/masks"
+for step in 10 30; do $render "$stone" "$out/$step" 480 $step >&2; done
 # Photographs of both steps have their own names.
 for file in "$out"/30/photographs/[uo]*.jpg; do mv "$file" "${file%/*}/s$(basename "$file")"; done
 sed -i 's/photographs = "/photographs = "s/' "$out/30/turntable.toml"

@@ -202,11 +202,24 @@ fn what_a_killed_run_left_is_said_and_never_overwritten() {
 /// A run that goes on for long, whose unfinished output is there.
 fn living(folder: &Path) -> Child {
     let run = start(folder, &["s.toml", "--until", "100", "-o", "run.mcap"]);
+    wait_for_the_part(folder);
+    run
+}
+
+/// A run whose words are kept, and whose unfinished output is there.
+fn begun(folder: &Path) -> Child {
+    let mut command = Command::new(program("dem-run"));
+    let run = command.current_dir(folder).args(["s.toml", "-o", "run.mcap"]).stderr(Stdio::piped());
+    let run = run.spawn().expect("it starts");
+    wait_for_the_part(folder);
+    run
+}
+
+fn wait_for_the_part(folder: &Path) {
     let deadline = Instant::now() + Duration::from_secs(60);
     while !folder.join("run.mcap.part").exists() && Instant::now() < deadline {
         std::thread::yield_now();
     }
-    run
 }
 
 /// A folder takes the name while the run goes on: the output is complete, and the message says that only its name is missing.
@@ -214,13 +227,7 @@ fn living(folder: &Path) -> Child {
 fn an_output_that_cannot_be_renamed_is_said_to_be_complete() {
     let folder = scene();
     let folder = folder.path();
-    let mut command = Command::new(program("dem-run"));
-    let run = command.current_dir(folder).args(["s.toml", "-o", "run.mcap"]).stderr(Stdio::piped());
-    let run = run.spawn().expect("it starts");
-    let deadline = Instant::now() + Duration::from_secs(60);
-    while !folder.join("run.mcap.part").exists() && Instant::now() < deadline {
-        std::thread::yield_now();
-    }
+    let run = begun(folder);
     fs::create_dir(folder.join("run.mcap")).expect("a folder");
     let done = run.wait_with_output().expect("it ends");
     let said = String::from_utf8_lossy(&done.stderr);
@@ -237,13 +244,7 @@ fn an_output_that_cannot_be_renamed_is_said_to_be_complete() {
 fn an_output_that_was_removed_is_said_to_be_lost() {
     let folder = scene();
     let folder = folder.path();
-    let mut command = Command::new(program("dem-run"));
-    let run = command.current_dir(folder).args(["s.toml", "-o", "run.mcap"]).stderr(Stdio::piped());
-    let run = run.spawn().expect("it starts");
-    let deadline = Instant::now() + Duration::from_secs(60);
-    while !folder.join("run.mcap.part").exists() && Instant::now() < deadline {
-        std::thread::yield_now();
-    }
+    let run = begun(folder);
     fs::remove_file(folder.join("run.mcap.part")).expect("it is there");
     let done = run.wait_with_output().expect("it ends");
     let said = String::from_utf8_lossy(&done.stderr);
