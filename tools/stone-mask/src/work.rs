@@ -67,16 +67,16 @@ fn one(args: &Args, settings: &MaskSettings, path: &Path) -> anyhow::Result<Done
     let file = args.folder.join(&name);
     let given = args.given.as_ref().map(|dir| dir.join(&name)).filter(|p| p.is_file());
     let stamp = kept::stamp(&bytes, settings);
-    let before = match kept::read(&file, &stamp) {
-        Before::Mask(mask) if given.is_none() => Some(mask),
-        Before::Foreign if given.is_none() => {
+    let before = match given.is_none().then(|| kept::read(&file, &stamp)) {
+        Some(Before::Mask(mask)) => Some(mask),
+        Some(Before::Foreign) => {
             let name = name.display();
             cli::warn(&format!(
                 "{name}: was drawn or changed elsewhere, and is written over: --given DIR takes such masks from another folder"
             ));
             None
         }
-        _ => None,
+        Some(Before::Other) | None => None,
     };
     let read = || Photograph::read(&bytes);
     let (mut mask, origin, photograph) = match before {
