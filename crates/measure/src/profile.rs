@@ -7,11 +7,13 @@
 //! d₁₀ = Σ wᵢdᵢ / Σ wᵢ     d₃₂ = Σ wᵢdᵢ³ / Σ wᵢdᵢ²     wᵢ = Vᵢ / (π dᵢ³/6)
 //! ```
 //!
-//! Several frames are averaged by adding their sums. Where grains overlap, the shared volume counts for both.
+//! A turned grid ([`Turn`]) takes positions and velocities along its own axes. Several frames are averaged by adding their sums. Where grains overlap, the shared volume counts for both.
 
 mod observe;
+mod turn;
 
 pub use observe::{Profile, ProfileOptions};
+pub use turn::Turn;
 
 use crate::sheet::Row;
 use crate::{Frame, MeasureError, ball};

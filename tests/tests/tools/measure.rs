@@ -155,6 +155,15 @@ fn velocities_are_weighted_by_mass() {
     );
     let volume = 4.0 / 3.0 * PI * 0.001;
     assert!((column(&done, "solid_fraction")[0] - 1.5 * volume).abs() < 1e-12);
+    // Down a slope of 30°: x goes along it, z away from it. The box moves with the axes.
+    let slope = ["--profile", "--turn-deg", "y,30", "--within", "box:-0.2,0,0.3,0.2,1,0.9", "--bins", "1"];
+    let done = measure(&folder, &[&slope[..], &["--last"]].concat());
+    assert!((column(&done, "vx")[0] - 0.75_f64.sqrt()).abs() < 1e-12, "cos 30°");
+    assert!((column(&done, "vz")[0] - 0.5).abs() < 1e-12, "sin 30°");
+    assert!(
+        (column(&done, "solid_fraction")[0] * 0.24 - volume).abs() < 1e-12,
+        "0.01 m along x, 0.58 m along z"
+    );
 }
 
 #[test]

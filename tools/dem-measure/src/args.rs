@@ -4,6 +4,7 @@ use clap::{ArgGroup, Parser};
 use cli::{Output, Source, usage};
 use geom::number::{finite, positive};
 use geom::{Plane, Shape, Vec3};
+use measure::profile::Turn;
 use std::path::PathBuf;
 
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
@@ -147,6 +148,9 @@ pub struct Args {
     /// Number of bins along the axis (default 20), or along all three axes [profile]
     #[arg(long, value_name = "N|NX,NY,NZ", value_parser = bins, help_heading = "How")]
     pub bins: Option<Bins>,
+    /// Turn the axes of the grid by DEG degrees about x, y or z: y,30 tilts x down by 30° [profile]
+    #[arg(long, value_name = "AXIS,DEG", value_parser = turn, help_heading = "How")]
+    pub turn_deg: Option<Turn>,
     /// One profile, averaged over the frames [profile]
     #[arg(long, conflicts_with_all = ["time", "last"], help_heading = "How")]
     pub mean: bool,
@@ -203,7 +207,7 @@ pub enum Bins {
 impl Args {
     /// Refuses options of other measures than the one that is asked for.
     pub fn check(&self, measure: &str) -> anyhow::Result<()> {
-        let options: [(&str, bool, &[&str]); 18] = [
+        let options: [(&str, bool, &[&str]); 19] = [
             ("--up", self.up.is_some(), &["--repose", "--segregation", "--bed-height", "--bed-slope"]),
             ("--sectors", self.sectors.is_some(), &["--repose"]),
             ("--fractions", self.fractions.is_some(), &["--repose", "--bed-slope"]),
@@ -214,6 +218,7 @@ impl Args {
             ("--span", self.span.is_some(), &["--flow"]),
             ("--axis", self.axis.is_some(), &["--profile"]),
             ("--bins", self.bins.is_some(), &["--profile"]),
+            ("--turn-deg", self.turn_deg.is_some(), &["--profile"]),
             ("--mean", self.mean, &["--profile"]),
             ("--field", !self.field.is_empty(), &["--profile"]),
             ("--cell", self.cell.is_some(), &["--segregation", "--wear"]),
@@ -291,6 +296,14 @@ fn side(text: &str) -> Result<Vec3, String> {
 
 fn axis(text: &str) -> Result<usize, String> {
     ["x", "y", "z"].iter().position(|name| *name == text).ok_or_else(|| "give x, y or z".into())
+}
+
+fn turn(text: &str) -> Result<Turn, String> {
+    let wrong = || "give an axis and an angle in degrees from -360 to 360, such as y,30".to_owned();
+    let (name, angle) = text.split_once(',').ok_or_else(wrong)?;
+    let degrees: f64 = angle.trim().parse().map_err(|_| wrong())?;
+    let turns = degrees != 0.0 && degrees.abs() <= 360.0;
+    if turns { Ok(Turn { axis: axis(name.trim())?, degrees }) } else { Err(wrong()) }
 }
 
 /// Openings of sieves [m].

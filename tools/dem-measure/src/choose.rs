@@ -177,7 +177,8 @@ fn grid(args: &Args) -> anyhow::Result<ProfileOptions> {
         }
         Bins::All(all) => bins = all,
     }
-    Ok(ProfileOptions { bins, corners, mean: args.mean, fields: args.field.clone() })
+    let fields = args.field.clone();
+    Ok(ProfileOptions { bins, corners, turn: args.turn_deg, mean: args.mean, fields })
 }
 
 fn on_walls(args: &Args, given: &GivenShape, between: (f64, f64)) -> WallContactFilter {

@@ -1,6 +1,6 @@
 //! Profiles of chosen frames of a run.
 
-use super::Grid;
+use super::{Grid, Turn};
 use crate::observer::OfFrame;
 use crate::sheet::{Chart, Head, Panel, Row, Summary};
 use crate::{Frame, MeasureError, Run, table};
@@ -11,8 +11,10 @@ use geom::Vec3;
 pub struct ProfileOptions {
     /// Number of cells along x, y, z.
     pub bins: [usize; 3],
-    /// Corners of the grid [m]; `None`: the box around all grains of the first frame.
+    /// Corners of the grid along its axes [m]; `None`: the box around all grains of the first frame.
     pub corners: Option<(Vec3, Vec3)>,
+    /// Axes of the grid; `None`: those of the scene.
+    pub turn: Option<Turn>,
     /// Whether frames are averaged.
     pub mean: bool,
     /// Other columns of `/particles` whose mass-weighted mean is wanted.
@@ -48,6 +50,12 @@ impl Profile {
     }
 }
 
+/// A frame with positions and velocities along turned axes.
+fn seen_along(frame: &Frame, turn: Turn) -> Frame {
+    let along = |all: &[Vec3]| all.iter().map(|v| turn.components(v)).collect();
+    Frame { position: along(&frame.position), velocity: along(&frame.velocity), ..frame.clone() }
+}
+
 impl OfFrame for Profile {
     fn heads(&self) -> Vec<Head> {
         let mut heads = Head::list(&[
@@ -71,6 +79,8 @@ impl OfFrame for Profile {
 
     fn measure(&mut self, _: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
         let fields = self.fields(frame)?;
+        let turned = self.options.turn.map(|turn| seen_along(frame, turn));
+        let frame = turned.as_ref().unwrap_or(frame);
         if frame.is_empty() && self.options.corners.is_none() && self.grid.is_none() {
             return Ok(Vec::new());
         }
@@ -105,7 +115,11 @@ impl OfFrame for Profile {
             .with("cell", "m³", grid.cell());
         let corners: Vec<String> =
             low.iter().chain(high.iter()).map(|v| geom::Shown(*v).to_string()).collect();
-        Ok((rows, summary.note(format!("grid in box:{}", corners.join(",")))))
+        let turned = self.options.turn.map_or(String::new(), |turn| {
+            let axis = ["x", "y", "z"][turn.axis];
+            format!(", in axes turned by {}° about {axis}", geom::Shown(turn.degrees))
+        });
+        Ok((rows, summary.note(format!("grid in box:{}{turned}", corners.join(",")))))
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {
@@ -113,7 +127,8 @@ impl OfFrame for Profile {
         let last = rows.len().saturating_sub(bins.iter().product());
         let rows = &rows[last..];
         let wide: Vec<usize> = (0..3).filter(|k| bins[*k] > 1).collect();
-        let name = |axis: usize| format!("{} [m]", ["x", "y", "z"][axis]);
+        let turned = if self.options.turn.is_some() { "′" } else { "" };
+        let name = |axis: usize| format!("{}{turned} [m]", ["x", "y", "z"][axis]);
         let time = rows.first().map_or(0.0, |r| r[0]);
         let title = if self.options.mean { "Mean profile until" } else { "Profile at" };
         let mut chart = Chart::new(format!("{title} {time:.4} s"));

@@ -100,7 +100,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-view run.mcap --camera -x --size 240x180 -o v3.png",
     "dem-view run.mcap --camera 0.3,0.3,0.3 --size 240x180 -o v4.png",
     "dem-view run.mcap --camera 0.3,0.3,0.3,0,0,0 --size 240x180 --output v5.png",
-    "dem-measure run.mcap --profile --axis y",
+    "dem-measure run.mcap --profile --axis y --turn-deg y,30",
     "dem-measure run.mcap --profile --axis z --all",
     "cost-curve s.toml --vary safety=0.2,0.4 --measure bed-height --set time.until=0.02 --work steps --norm rms --for 1% --repeat 2 --rounds 2 --dir points --words words.md -o curve.svg --report r.json --threads 1 -q",
     "cost-curve s.toml --vary safety=0.2,0.4 --measure bed-height --set time.until=0.02 --work cpu --norm max --exact 0 --for 0.5 --dir points2 --output curve.png --quiet --jobs 2",

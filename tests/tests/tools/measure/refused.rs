@@ -56,6 +56,11 @@ const OF_ONE_FRAME: &[Case] = &[
         arguments: &["--time", "-1", "--porosity", "sphere:0,0,0,1"],
         parts: &["no frame at or before -1 s", "from 0 to 0 s"],
     },
+    Case { arguments: &["--profile", "--turn-deg", "y,0"], parts: &["--turn-deg", "such as y,30"] },
+    Case {
+        arguments: &["--contacts", "--turn-deg", "y,3"],
+        parts: &["--turn-deg: is an option of --profile"],
+    },
     Case { arguments: &["--profile", "--sectors", "3"], parts: &["--sectors: is an option of --repose"] },
     Case {
         arguments: &["--energy", "--time", "1"],
