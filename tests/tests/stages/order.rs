@@ -52,6 +52,13 @@ fn a_watermark_that_is_too_late_is_refused() {
     expect("once, piped", "cat once.mcap | dem-run down.toml - -o x.mcap", &["stdin: ", "100 s"]);
     expect("milliseconds", &run("milli.mcap"), &["particle ", "after a watermark of "]);
     expect("back", &run("back.mcap"), &["a watermark of ", " follows one of "]);
+    // A check reads a file as the run would.
+    for (name, wanted) in
+        [("once", "100 s"), ("milli", "after a watermark of "), ("back", " follows one of ")]
+    {
+        expect(name, &format!("dem-run down.toml {name}.mcap --check"), &[wanted]);
+    }
+    assert_eq!(line(folder.path(), "dem-run down.toml in.mcap --check").code, 0);
     // A run is read by the same rule.
     with_watermarks(&path("up.mcap"), &path("late.mcap"), |_, t| t + 0.1);
     expect("a run", "stage-replay late.mcap -o x.mcap", &["late.mcap: particle ", "after a watermark of "]);
@@ -65,6 +72,10 @@ fn a_stream_that_is_cut_off_after_the_end_of_the_run_is_enough() {
     assert_eq!(made.code, 0, "{}", made.stderr);
     let bytes = std::fs::read(folder.path().join("in.mcap")).unwrap();
     std::fs::write(folder.path().join("cut.mcap"), &bytes[..bytes.len() * 9 / 10]).unwrap();
-    let done = tool(folder.path(), "dem-run", &["down.toml", "cut.mcap", "--until", "0.02", "-o", "x.mcap"]);
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let words = ["down.toml", "cut.mcap", "--until", "0.02"];
+    for more in [&["-o", "x.mcap"][..], &["--check"]] {
+        let done = tool(folder.path(), "dem-run", &[&words[..], more].concat());
+        assert_eq!(done.code, 0, "{more:?}: {}", done.stderr);
+    }
+    assert_eq!(tool(folder.path(), "dem-run", &["down.toml", "cut.mcap", "--check"]).code, 1);
 }

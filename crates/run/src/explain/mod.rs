@@ -16,6 +16,7 @@ use dem::setup::{Guards, Setup, Wall, WallShape};
 use dem::{ContactBytes, MatchedDamping, Simulation, critical_step};
 pub use effects::Effect;
 use effects::{EffectToMeasure, effects};
+use geom::counted;
 use scene::advice::explain_step_cause;
 use scene::plan::Insertion;
 use scene::{Plan, Scene};
@@ -124,23 +125,31 @@ impl Coming {
 /// # Errors
 /// Whatever would keep the scene from running.
 pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
-    let Plan { setup, step: chosen_by, insertions, inlets, .. } = plan;
-    let streams = inlets.len();
-    // A stream whose first message is wrong would keep the scene from running.
-    inlets.into_iter().try_for_each(|inlet| InletStream::new(inlet).map(drop))?;
+    let Plan { mut setup, step: chosen_by, insertions, inlets, .. } = plan;
+    let mut streams = inlets.into_iter().map(InletStream::new).collect::<Result<Vec<_>, _>>()?;
     let limit = critical_step(&setup)?;
-    let mut sim = Simulation::new(setup.clone())?;
-    if let Err(halt) = sim.particles() {
+    let critical_dt_half_overlap = half_overlap(&mut setup, limit.dt)?;
+    let critical_dt_elastic = elastic(&mut setup, limit.dt)?;
+    let particles = setup.particles.len() + setup.clumps.members();
+    // They are most of a scene: what only checks it has them once.
+    let placed = std::mem::take(&mut setup.particles);
+    let mut whole = setup.clone();
+    if measure {
+        setup.particles.clone_from(&placed);
+    }
+    whole.particles = placed;
+    let mut sim = Simulation::new(whole)?;
+    if let Err(halt) = sim.ready() {
         guard(scene, halt)?;
     }
     let Schedule { dt, last, .. } = Schedule::new(scene, sim.dt())?;
+    streams.iter_mut().try_for_each(|stream| stream.check(dt * last as f64))?;
     let matched_damping = sim.matched_damping();
     let (bytes_per_particle, rotation) = (sim.bytes_per_particle(), sim.rotates());
     let (bonds, bytes_per_contact) = (sim.bond_count()[0], sim.bytes_of_contact());
     let bytes_per_bond = (bonds > 0).then(|| sim.bytes_of_bonds() as f64 / bonds as f64);
     drop(sim);
-    let particles = setup.particles.len() + setup.clumps.members();
-    let coming = Coming::new(&insertions, streams, dt * last as f64);
+    let coming = Coming::new(&insertions, streams.len(), dt * last as f64);
     // The middle of the run at the latest: its end may be at rest.
     let measured = measure.then(|| Calibration::new(setup.clone(), &insertions, last / 2));
     let calibration = measured.as_ref().and_then(|m| m.as_ref().ok()).copied();
@@ -151,9 +160,9 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
         dt,
         critical_dt: limit.dt,
         chosen_by,
-        critical_dt_half_overlap: half_overlap(&setup, limit.dt)?,
+        critical_dt_half_overlap,
         guard_overlap: setup.guards.overlap,
-        critical_dt_elastic: elastic(&setup, limit.dt)?,
+        critical_dt_elastic,
         limiting_pair: explain_step_cause(&limit.cause),
         steps: last,
         effects: effects(scene, &setup).into_iter().map(measured_effect).collect(),
@@ -170,24 +179,31 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
             .and_then(|c| Some(c.seconds_per_step * last as f64 * coming.growth(particles, c.particles)?)),
         coming,
     };
-    let summary = format!("{particles} particles, {} walls, {last} steps of {dt:.3e} s", setup.walls.len());
+    let [particles, walls] =
+        [(particles, "particle"), (setup.walls.len(), "wall")].map(|(n, of)| counted(n, of));
+    let summary = format!("{particles}, {walls}, {} of {dt:.3e} s", counted(last, "step"));
     Ok(Explained { text: text::text(&fields), summary, fields })
 }
 
 /// Critical step with half of the overlap guard, where that is longer: the stiffness of the limiting pair is that at the guard.
-fn half_overlap(setup: &Setup, critical: f64) -> Result<Option<f64>> {
+fn half_overlap(setup: &mut Setup, critical: f64) -> Result<Option<f64>> {
     let guards = Guards { overlap: 0.5 * setup.guards.overlap, ..setup.guards };
-    let dt = critical_step(&Setup { guards, ..setup.clone() })?.dt;
+    let given = std::mem::replace(&mut setup.guards, guards);
+    let found = critical_step(setup);
+    setup.guards = given;
+    let dt = found?.dt;
     Ok(Some(dt).filter(|dt| *dt > LONGER * critical))
 }
 
 /// Critical step with a restitution of 1 everywhere, where that is longer: a dashpot makes a contact stiffer.
-fn elastic(setup: &Setup, critical: f64) -> Result<Option<f64>> {
-    let mut setup = setup.clone();
+fn elastic(setup: &mut Setup, critical: f64) -> Result<Option<f64>> {
+    let given = setup.contacts.clone();
     for law in setup.contacts.iter_mut().filter(|law| law.number("restitution").is_some()) {
         law.set("restitution", 1.0);
     }
-    let dt = critical_step(&setup)?.dt;
+    let found = critical_step(setup);
+    setup.contacts = given;
+    let dt = found?.dt;
     Ok(Some(dt).filter(|dt| *dt > LONGER * critical))
 }
 

@@ -13,6 +13,7 @@ use super::packing::{Occupied, Radii, holds};
 use super::random::unit;
 use geom::{Shape, Vec3};
 use rand_pcg::Pcg64Mcg;
+use rayon::prelude::*;
 
 /// Cells are longer than the largest sphere by this share, so that rounding makes none touch.
 const GAP: f64 = 1e-9;
@@ -81,7 +82,7 @@ fn fitting<'a>(
             count,
             largest,
         };
-        let cells = lattice.cells().filter(|cell| lattice.counts(&lattice.middle(*cell))).count();
+        let cells = lattice.fitting_cells();
         if cells >= wanted {
             return Ok((lattice, cells));
         }
@@ -98,6 +99,13 @@ impl Lattice<'_> {
     fn cells(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
         let [nx, ny, nz] = self.count;
         (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])))
+    }
+
+    /// How many cells count.
+    fn fitting_cells(&self) -> usize {
+        let [nx, ny, nz] = self.count;
+        let row = |y, z| (0..nx).filter(|&x| self.counts(&self.middle([x, y, z]))).count();
+        (0..nz).into_par_iter().map(|z| (0..ny).map(|y| row(y, z)).sum::<usize>()).sum()
     }
 
     fn middle(&self, cell: [usize; 3]) -> Vec3 {

@@ -140,6 +140,15 @@ impl InletStream {
         Ok(())
     }
 
+    /// Reads a file as a run until `time` [s] would, and on to its end; of a pipe nothing, which can be read only once.
+    ///
+    /// # Errors
+    /// As [`InletStream::next_until`] and [`InletStream::check_rest`].
+    pub fn check(&mut self, time: f64) -> Result<()> {
+        while self.plan.source.file && self.next_until(time)?.is_some() {}
+        self.check_rest()
+    }
+
     /// Forgets what was read.
     fn drop_read(&mut self) {
         self.crossings.clear();
