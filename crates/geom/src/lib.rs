@@ -74,7 +74,7 @@ pub use quadratic::Quadratic;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use shape::Shape;
 #[cfg(not(target_arch = "nvptx64"))]
-pub use shown::Shown;
+pub use shown::{Shown, counted};
 #[cfg(not(target_arch = "nvptx64"))]
 pub use spread::least_axis;
 

@@ -1,4 +1,4 @@
-//! Computed numbers, rounded for messages.
+//! Numbers in messages: rounded, and with what they count.
 
 use std::fmt;
 
@@ -18,9 +18,20 @@ impl fmt::Display for Shown {
     }
 }
 
+/// A number and what it counts: a word that takes an s where there are more than one, or none.
+pub fn counted(count: impl TryInto<u64>, word: &str) -> String {
+    let count = count.try_into().unwrap_or(u64::MAX);
+    if count == 1 { format!("1 {word}") } else { format!("{count} {word}s") }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Shown;
+    use super::*;
+
+    #[test]
+    fn one_has_no_s() {
+        assert_eq!([0, 1, 2].map(|n| counted(n, "grain")), ["0 grains", "1 grain", "2 grains"]);
+    }
 
     #[test]
     fn six_digits_and_no_more() {

@@ -6,7 +6,7 @@ use cli::Report;
 use cloud::fill::Settings;
 use cloud::{Mesher, Method};
 use geom::number::positive;
-use geom::{Shape, Vec3};
+use geom::{Shape, Vec3, counted};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -132,12 +132,13 @@ fn summary(report: &cloud::fill::Report) -> String {
             smallest.fold(0.0, f64::max),
             report.max_hole
         ),
-        None => format!("{} points added in {holes} holes{checked}", report.added),
+        None => format!("{} added in {}{checked}", counted(report.added, "point"), counted(holes, "hole")),
         Some(sparse) => format!(
-            "{} points added in {holes} holes{checked}, {} in {} places that were too sparse for a spacing of {} m",
-            report.added - sparse.added,
+            "{} added in {}{checked}, {} in {} too sparse for a spacing of {} m",
+            counted(report.added - sparse.added, "point"),
+            counted(holes, "hole"),
             sparse.added,
-            sparse.places,
+            counted(sparse.places, "place"),
             sparse.spacing
         ),
     }
@@ -174,10 +175,10 @@ fn warn(report: &cloud::fill::Report) {
     if let Some(hole) = left.first() {
         let [x, y, z] = hole.centre;
         cli::warn(&format!(
-            "{} points of {} holes would lie in space that a scanner looked through: they were left out; the first hole is at {x:.3},{y:.3},{z:.3}, \
+            "{} of {} would lie in space that a scanner looked through: they were left out; the first hole is at {x:.3},{y:.3},{z:.3}, \
              {:.3} m wide; the report lists the holes",
-            left.iter().filter_map(|h| h.sight).map(|sight| sight.free).sum::<usize>(),
-            left.len(),
+            counted(left.iter().filter_map(|h| h.sight).map(|sight| sight.free).sum::<usize>(), "point"),
+            counted(left.len(), "hole"),
             hole.width
         ));
     }
@@ -187,9 +188,11 @@ fn warn(report: &cloud::fill::Report) {
     if let Some(hole) = report.holes.iter().find(is_open) {
         let [x, y, z] = hole.centre;
         cli::warn(&format!(
-            "{open} holes are not completely closed, the first at {x:.3},{y:.3},{z:.3}, {:.3} m wide: balls \
+            "{} not completely closed, the first at {x:.3},{y:.3},{z:.3}, {:.3} m wide: balls \
              up to {:.3} m fall through, or too few points surround it; the report lists the holes",
-            hole.width, hole.ball
+            counted(open, "hole"),
+            hole.width,
+            hole.ball
         ));
     }
 }
@@ -200,14 +203,14 @@ fn between(report: &cloud::fill::Report) {
     let Some(widest) = holes.iter().max_by(|a, b| a.width.total_cmp(&b.width)) else { return };
     let ([x, y, z], step) = (widest.centre, widest.step.unwrap_or_default());
     let (what, cure) = if holes.iter().any(|h| h.added > 0) {
-        ("were filled all the same", "check them in a picture, or give --seen-from")
+        ("filled all the same", "check them in a picture, or give --seen-from")
     } else {
-        ("stay open", "give --seen-from x,y,z, where the scanner stood, or --bridge to fill them")
+        ("left open", "give --seen-from x,y,z, where the scanner stood, or --bridge to fill them")
     };
     cli::warn(&format!(
-        "{} holes lie between two surfaces, as between an edge and the floor behind it, and {what}: the widest, at {x:.3},{y:.3},{z:.3}, is {:.3} m wide, \
+        "{} between two surfaces, as between an edge and the floor behind it, {what}: the widest, at {x:.3},{y:.3},{z:.3}, is {:.3} m wide, \
          with a step of {:.0} % of the distance across; the report lists them; {cure}",
-        holes.len(),
+        counted(holes.len(), "hole"),
         widest.width,
         100.0 * step
     ));

@@ -6,6 +6,7 @@ mod kept;
 use anyhow::Context;
 use args::Args;
 use cli::{Report, Source, Stopped};
+use geom::counted;
 use lammps::{Engine, Inflow, LammpsError, Origin, Prepared, Settings, Start, Target, Version};
 use run::{Progress, RunError};
 use scene::{Input, Plan, Scene, SceneError};
@@ -46,8 +47,9 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
     if args.check {
         let schedule = &prepared.schedule;
         return Ok(Report::new(format!(
-            "LAMMPS can run the scene: {} steps of {:.3e} s",
-            schedule.last, schedule.dt
+            "LAMMPS can run the scene: {} of {:.3e} s",
+            counted(schedule.last, "step"),
+            schedule.dt
         )));
     }
     if let Some(folder) = &args.write_deck {
@@ -174,8 +176,10 @@ fn simulate(
         if let Some(bar) = &bar {
             bar.set((BAR * progress.share) as u64);
             bar.say(format!(
-                "t = {:.4} of {:.4} s, {} particles",
-                progress.time, progress.until, progress.particles
+                "t = {:.4} of {:.4} s, {}",
+                progress.time,
+                progress.until,
+                counted(progress.particles, "particle")
             ));
         } else if let Ok(line) = serde_json::to_string(progress) {
             cli::say(&line);
@@ -188,12 +192,12 @@ fn simulate(
     let outcome = done.map_err(|e| kept::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
     outcome.warnings.iter().for_each(|warning| cli::warn(warning));
     let summary = format!(
-        "{} steps of {:.3e} s to {} s on LAMMPS, {} particles, {} frames",
-        outcome.steps,
+        "{} of {:.3e} s to {} s on LAMMPS, {}, {}",
+        counted(outcome.steps, "step"),
         outcome.dt,
         geom::Shown(outcome.time),
-        outcome.particles,
-        outcome.frames
+        counted(outcome.particles, "particle"),
+        counted(outcome.frames, "frame")
     );
     let report = Report::new(summary).with_all(&outcome);
     match &outcome.stopped {

@@ -233,7 +233,7 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
     let (keep, part) = (out.keeper(), parts::as_named(&args.output, out.part()));
     let first = u64::from(resume.is_none());
     let (provenance, how) = (cli::provenance(plan.inputs.clone()), out.how());
-    let watched = args.progress;
+    let (watched, ledger) = (args.progress, plan.setup.ledger);
     let settings = Settings { provenance, how, resume, watched, stop: cli::stop_requested, device };
     cli::stop_in_order();
     let (mut watch, mut saved) = (Watch::new(args.progress), Saved::default());
@@ -260,16 +260,17 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
         .for_each(|note| cli::warn(note));
     let held = outcome.servos.iter().filter(|servo| servo.warning().is_none());
     let held: String = held.map(|servo| format!("; {servo}")).collect();
-    let error = error.map_or(String::new(), |error| format!(", {error}"));
+    let unknown = if ledger { "" } else { UNMEASURED };
+    let error = error.map_or(unknown.to_owned(), |error| format!(", {error}"));
     let settled = outcome.settled.as_ref().map_or(String::new(), |why| format!("; ended at rest: {why}"));
     let by = outcome.device.as_ref().map_or(String::new(), |name| format!(" on {name}"));
     let summary = format!(
-        "{} steps of {:.3e} s to {} s{by}, {} particles, {} frames{error}{settled}{held}",
-        outcome.steps,
+        "{} of {:.3e} s to {} s{by}, {}, {}{error}{settled}{held}",
+        geom::counted(outcome.steps, "step"),
         outcome.dt,
         geom::Shown(outcome.time),
-        outcome.particles,
-        outcome.frames
+        geom::counted(outcome.particles, "particle"),
+        geom::counted(outcome.frames, "frame")
     );
     let report = Report::new(summary).with_all(&outcome);
     match outcome.stopped {
@@ -279,6 +280,9 @@ fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) 
         None => Ok(report),
     }
 }
+
+/// Of a run without the ledger: only its books show what the time step made.
+const UNMEASURED: &str = ", integration error not measured (output.energy = true measures it)";
 
 /// Why a run stopped, and how to continue it.
 fn stopped(output: &Output, scene: &Scene, reason: &str, time: f64) -> String {

@@ -102,8 +102,10 @@ impl Watch {
         if let Some(bar) = &self.bar {
             bar.set((BAR * progress.share) as u64);
             bar.say(format!(
-                "t = {:.4} of {:.4} s, {} particles",
-                progress.time, progress.until, progress.particles
+                "t = {:.4} of {:.4} s, {}",
+                progress.time,
+                progress.until,
+                geom::counted(progress.particles, "particle")
             ));
             return;
         }

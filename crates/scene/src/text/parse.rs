@@ -114,7 +114,7 @@ fn bounded(message: &str) -> String {
 
 /// The parser's message in the terms of a scene.
 fn plain(message: &str) -> String {
-    let mut text = bounded(message).replace('`', "'");
+    let mut text = bounded(&rounded(message)).replace('`', "'");
     if let Some((rest, kind)) = text.split_once(", expected ") {
         let wanted = match kind.split(' ').next().unwrap_or_default() {
             "f64" => "a number, such as 0.5",
@@ -130,6 +130,15 @@ fn plain(message: &str) -> String {
         .replace("an array of length ", "a list of ")
         .replace("invalid type: ", "wrong kind of value: ")
         .replace("floating point", "number")
+}
+
+/// The message with a number of many digits, as the parser writes 1e99, in its short form.
+fn rounded(message: &str) -> String {
+    let number = message.split('`').nth(1).filter(|word| word.len() > 24);
+    match number.and_then(|digits| Some((digits, digits.parse::<f64>().ok()?))) {
+        Some((digits, number)) => message.replacen(digits, &format!("{number:e}"), 1),
+        None => message.to_owned(),
+    }
 }
 
 /// The nearest of the words that serde expected.
@@ -199,6 +208,8 @@ mod tests {
         let message = refused("[time]\nuntil = \"long\"");
         assert!(message.starts_with("s.toml:2:9: ") && message.contains("expected a number"), "{message}");
         assert!(refused("[time]\ndt = \"fast\"").contains("\"auto\" or a number"));
+        let message = refused("first_id = 1e99");
+        assert!(message.contains("wrong kind of value: number '1e99', expected a whole number"), "{message}");
         let message = refused("[time]\n[[contact]]\nbetween=[\"*\",\"*\"]\nrestitution=1\nlaw=\"herz\"");
         assert!(message.contains("did you mean 'hertz'?"), "{message}");
         assert!(refused("[time\n").starts_with("s.toml:1:"));
