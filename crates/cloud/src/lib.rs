@@ -30,6 +30,7 @@ pub mod scatter;
 pub mod seen;
 mod sheet;
 mod sieve;
+mod smallest;
 pub mod sparse;
 mod step;
 mod surrounded;

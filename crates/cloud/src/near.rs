@@ -4,8 +4,10 @@
 //! candidates are the k nearest of all if they are no farther than the border of those cells; else more cells are looked at, then wider
 //! ones. What is farther still is found among all points: one by one while few are left, by a tree otherwise.
 
+use crate::smallest::{Smallest, squares};
 use geom::{Grid, Vec3};
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use multiversion::multiversion;
 use rayon::prelude::*;
 use std::num::NonZero;
 
@@ -28,6 +30,10 @@ const ONE_BY_ONE: usize = 500_000_000;
 const DENSE: (usize, usize) = (32, 256);
 /// See [`DENSE`].
 const SPARSE: usize = 8;
+/// Of the square of the distance to its last neighbour, the share up to which the nearest of the next point are looked for first [–].
+const MORE: f64 = 1.4;
+/// Squares that are chosen from at once.
+const PART: usize = 64;
 /// Cells that one thread takes at a time.
 const CELLS: usize = 256;
 
@@ -46,7 +52,7 @@ pub(crate) fn mean_distances(points: &[Vec3], k: usize) -> Vec<f64> {
     let mut far = all;
     for level in 0..LEVELS as i32 {
         if far.len() * points.len() > ONE_BY_ONE {
-            Sorted::new(points, width * WIDER.powi(level)).add(&mut means, k);
+            Sorted::new(points, width * WIDER.powi(level)).add(&mut means, k, level == 0);
             far.retain(|&i| means[i as usize].is_nan());
         }
     }
@@ -59,38 +65,65 @@ pub(crate) fn mean_distances(points: &[Vec3], k: usize) -> Vec<f64> {
 }
 
 /// Squares of the distances from `p` to the `k` + 1 nearest of all points, ascending.
-fn nearest(points: &[Vec3], p: &Vec3, k: usize) -> Vec<u64> {
-    let mut found = vec![u64::MAX; k + 1];
+fn nearest(points: &[Vec3], p: &Vec3, k: usize) -> Vec<f64> {
+    let mut found = vec![f64::INFINITY; k + 1];
     for q in points {
-        let square = square([p.x - q.x, p.y - q.y, p.z - q.z]);
+        let square = (p - q).norm_squared();
         if square < found[k] {
-            let place = found.partition_point(|&s| s <= square);
-            found.copy_within(place..k, place + 1);
-            found[place] = square;
+            insert(&mut found, square);
         }
     }
     found
 }
 
-/// A square of a distance, as the bits of the number: they have the order of the numbers, which are not negative.
-fn square([x, y, z]: [f64; 3]) -> u64 {
-    (x * x + y * y + z * z).to_bits()
+/// Puts a square where it belongs; the last goes.
+fn insert(ascending: &mut [f64], square: f64) {
+    let place = ascending.partition_point(|&s| s <= square);
+    let last = ascending.len() - 1;
+    ascending.copy_within(place..last, place + 1);
+    ascending[place] = square;
 }
 
 /// The mean distance to the others, of the squares of the distances to a point itself and its nearest others, ascending.
-fn mean(nearest: &[u64]) -> f64 {
-    let sum: f64 = nearest.iter().map(|&square| f64::from_bits(square).sqrt()).sum();
+fn mean(nearest: &[f64]) -> f64 {
+    let sum: f64 = nearest.iter().map(|square| square.sqrt()).sum();
     sum / (nearest.len() - 1) as f64
 }
 
 /// About the distance to the `k`-th neighbour [m].
 fn width(points: &[Vec3], k: usize) -> f64 {
-    let step = points.len().div_ceil(SAMPLE);
-    let rows: Vec<usize> = (0..points.len()).step_by(step).collect();
-    let farthest = |&row: &usize| f64::from_bits(nearest(points, &points[row], k)[k]).sqrt();
-    let mut distances: Vec<f64> = rows.par_iter().map(farthest).collect();
+    let sample: Vec<Vec3> = points.iter().step_by(points.len().div_ceil(SAMPLE)).copied().collect();
+    let mut distances: Vec<f64> =
+        nearest_of_sample(points, &sample, k).iter().map(|squares| squares[k].sqrt()).collect();
     distances.sort_by(f64::total_cmp);
     distances[(SHARE * (distances.len() - 1) as f64) as usize]
+}
+
+/// As [`nearest`], for each of up to [`SAMPLE`] points at once: all points are read once.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn nearest_of_sample(points: &[Vec3], sample: &[Vec3], k: usize) -> Vec<Vec<f64>> {
+    let of: [[f64; SAMPLE]; 3] =
+        [0, 1, 2].map(|axis| std::array::from_fn(|i| sample.get(i).map_or(f64::NAN, |p| p[axis])));
+    let mut found = vec![vec![f64::INFINITY; k + 1]; sample.len()];
+    let mut most = [f64::INFINITY; SAMPLE];
+    for q in points {
+        let mut squares = [0.0; SAMPLE];
+        let mut near = false;
+        for i in 0..SAMPLE {
+            let (x, y, z) = (of[0][i] - q.x, of[1][i] - q.y, of[2][i] - q.z);
+            squares[i] = x * x + y * y + z * z;
+            near |= squares[i] < most[i];
+        }
+        if near {
+            for ((found, most), square) in found.iter_mut().zip(&mut most).zip(squares) {
+                if square < *most {
+                    insert(found, square);
+                    *most = found[k];
+                }
+            }
+        }
+    }
+    found
 }
 
 fn by_tree(points: &[Vec3], rows: &[u32], k: usize) -> Vec<f64> {
@@ -123,8 +156,9 @@ impl Sorted {
         Sorted { grid, points, low }
     }
 
-    /// Adds the means that are missing (NaN), where no nearest point may be farther away than [`RINGS`].
-    fn add(&self, means: &mut [f64], k: usize) {
+    /// Adds the means that are missing (NaN), where no nearest point may be farther away than [`RINGS`]; all are missing of
+    /// `fresh` ones.
+    fn add(&self, means: &mut [f64], k: usize, fresh: bool) {
         let (keys, starts) = self.grid.filled();
         let cells: Vec<[usize; 2]> =
             starts.windows(2).map(|run| [run[0] as usize, run[1] as usize]).collect();
@@ -137,7 +171,10 @@ impl Sorted {
                 let mut found = Vec::new();
                 for &[from, to] in cells {
                     let first = found.len();
-                    found.extend(order[from..to].iter().map(|&i| known[i as usize]));
+                    match fresh {
+                        true => found.resize(first + to - from, f64::NAN),
+                        false => found.extend(order[from..to].iter().map(|&i| known[i as usize])),
+                    }
                     self.cell(&self.points[from..to], k, &mut candidates, &mut found[first..]);
                 }
                 found
@@ -156,7 +193,7 @@ impl Sorted {
                 return;
             }
             candidates.gather(cell, level);
-            let count = candidates.x.len();
+            let count = candidates.squares.len();
             if open > SPARSE && count > DENSE.0 * (k + 1) + DENSE.1 {
                 return;
             }
@@ -181,6 +218,22 @@ impl Sorted {
     }
 }
 
+/// Writes the squares that are not above `most` to the front of `chosen`; how many.
+fn choose(squares: &[f64], most: f64, chosen: &mut [f64]) -> usize {
+    let mut count = 0;
+    for squares in squares.chunks(PART) {
+        // Without a branch: each is written, and only what is near stays.
+        let (mut few, mut near) = ([0.0; PART], 0);
+        for &square in squares {
+            few[near % PART] = square;
+            near += usize::from(square <= most);
+        }
+        chosen[count..count + near].copy_from_slice(&few[..near]);
+        count += near;
+    }
+    count
+}
+
 /// Points near a cell.
 struct Candidates<'a> {
     sorted: &'a Sorted,
@@ -189,24 +242,34 @@ struct Candidates<'a> {
     starts: &'a [u32],
     /// For each ring and row of cells in it, where the last search ended: cells are asked for in the order of their numbers.
     ends: [Vec<Option<usize>>; RINGS.len()],
-    x: Vec<f64>,
-    y: Vec<f64>,
-    z: Vec<f64>,
-    /// See [`square`].
-    squares: Vec<u64>,
+    points: Vec<Vec3>,
+    /// Squares of their distances from a point, and those of them that may be among the nearest.
+    squares: Vec<f64>,
+    near: Vec<f64>,
+    /// The square below which the nearest of the point before were, and some more.
+    usual: f64,
+    smallest: Smallest,
 }
 
 impl<'a> Candidates<'a> {
     fn new(sorted: &'a Sorted, keys: &'a [u64], starts: &'a [u32]) -> Candidates<'a> {
         let ends = RINGS.map(|ring| vec![None; ((2 * ring + 1) * (2 * ring + 1)) as usize]);
-        Candidates { sorted, keys, starts, ends, x: vec![], y: vec![], z: vec![], squares: vec![] }
+        Candidates {
+            sorted,
+            keys,
+            starts,
+            ends,
+            points: vec![],
+            squares: vec![],
+            near: vec![],
+            usual: f64::INFINITY,
+            smallest: Smallest::new(),
+        }
     }
 
     /// Takes the points of the cells around one; of each ring, cells come in the order of their numbers.
     fn gather(&mut self, [x, y, z]: [i64; 3], level: usize) {
-        self.x.clear();
-        self.y.clear();
-        self.z.clear();
+        self.points.clear();
         let (ring, [nx, ny, nz]) = (RINGS[level], self.sorted.grid.dims());
         let rows = (z - ring..=z + ring).flat_map(|z| (y - ring..=y + ring).map(move |y| (z, y)));
         for ((z, y), end) in rows.zip(&mut self.ends[level]) {
@@ -221,34 +284,28 @@ impl<'a> Candidates<'a> {
             }
             *end = Some(at);
             let count = self.keys[at..].iter().take_while(|&&key| key <= high).count();
-            for p in &self.sorted.points[self.starts[at] as usize..self.starts[at + count] as usize] {
-                self.x.push(p.x);
-                self.y.push(p.y);
-                self.z.push(p.z);
-            }
+            let run = self.starts[at] as usize..self.starts[at + count] as usize;
+            self.points.extend_from_slice(&self.sorted.points[run]);
         }
+        self.squares.resize(self.points.len(), 0.0);
+        self.near.resize(self.points.len(), 0.0);
     }
 
     /// As [`nearest`], if so many candidates are within `reach` [m].
-    fn nearest(&mut self, p: &Vec3, k: usize, reach: f64) -> Option<&[u64]> {
-        let most = if reach > 0.0 { (reach * reach).to_bits() } else { return None };
-        let places = self.x.iter().zip(&self.y).zip(&self.z);
-        let squares = places.map(|((x, y), z)| square([p.x - x, p.y - y, p.z - z]));
-        // Without a branch: each is written, and only what is near stays.
-        self.squares.resize(self.x.len() + 1, 0);
-        let mut count = 0;
-        for square in squares {
-            self.squares[count] = square;
-            count += usize::from(square <= most);
+    fn nearest(&mut self, p: &Vec3, k: usize, reach: f64) -> Option<&[f64]> {
+        let most = if reach > 0.0 { reach * reach } else { return None };
+        squares(p, &self.points, &mut self.squares);
+        // The point before is near: few are as near as its neighbours were, and these are soon sorted.
+        let mut count = choose(&self.squares, most.min(self.usual), &mut self.near);
+        if count <= k && self.usual < most {
+            count = choose(&self.squares, most, &mut self.near);
         }
         if count <= k {
             return None;
         }
-        let near = &mut self.squares[..count];
-        near.select_nth_unstable(k);
-        let found = &mut near[..=k];
-        found.sort_unstable();
-        Some(found)
+        let nearest = self.smallest.of(&mut self.near[..count], k + 1);
+        self.usual = MORE * nearest[k];
+        Some(nearest)
     }
 }
 

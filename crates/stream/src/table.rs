@@ -52,6 +52,11 @@ impl Values {
         }
     }
 
+    /// All values as `f64`, one after the other.
+    pub fn iter(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..self.len()).map(|row| self.get(row))
+    }
+
     /// All values as `f64`.
     pub fn to_f64(&self) -> Vec<f64> {
         #[allow(clippy::unnecessary_cast)]
@@ -176,6 +181,11 @@ impl Table {
             }
             None => self.push(name, values),
         }
+    }
+
+    /// Names and values of all columns, in order.
+    pub fn into_columns(self) -> impl Iterator<Item = (String, Values)> {
+        self.columns.into_iter().map(|column| (column.name, column.values))
     }
 
     /// Takes the column called `name` out.

@@ -29,13 +29,13 @@ impl Outline {
         let step = if loose { (alone.len() + bodies.len()).div_ceil(SAMPLE).max(1) } else { 1 };
         let grains: Vec<&[u32]> = all.step_by(step).collect();
         for (n, direction) in directions().enumerate() {
-            let far = |row: usize| spheres.at(row).dot(&direction) + spheres.radius[row];
+            let far = |row: usize| spheres.at(row).dot(&direction) + spheres.radius(row);
             let farthest_of = |rows: &&[u32]| {
                 let reach = rows.iter().map(|&row| (far(row as usize), row as usize));
                 reach.max_by(|a, b| a.0.total_cmp(&b.0))
             };
             if let Some(row) = farthest(grains.iter().filter_map(farthest_of).collect(), loose) {
-                let point = spheres.at(row) + direction * spheres.radius[row];
+                let point = spheres.at(row) + direction * spheres.radius(row);
                 self.take(n, point.dot(&direction), point);
             }
         }
@@ -45,8 +45,8 @@ impl Outline {
     pub fn leaves_out(&self, spheres: &Spheres) -> bool {
         let points = self.points();
         (0..3).any(|k| {
-            let of = Range::of(&points.iter().map(|p| p[k]).collect::<Vec<f64>>());
-            let (all, far) = (Range::of(&spheres.centre[k]), NEAR * (of.hi - of.lo));
+            let of = Range::of(points.iter().map(|p| p[k]));
+            let (all, far) = (Range::of(spheres.centre[k].iter()), NEAR * (of.hi - of.lo));
             all.hi > of.hi + far || all.lo < of.lo - far
         })
     }
@@ -97,6 +97,7 @@ fn directions() -> impl Iterator<Item = Vec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use stream::{Table, Values};
 
     #[test]
     fn a_ball_of_spheres_is_outlined_without_its_stray() {
@@ -117,14 +118,14 @@ mod tests {
     }
 
     /// Farthest that an outline goes.
-    fn reach(spheres: &Spheres, bodies: &[Vec<u32>], loose: bool) -> f64 {
+    fn reach(table: &Table, bodies: &[Vec<u32>], loose: bool) -> f64 {
         let mut outline = Outline::default();
-        outline.add_spheres(spheres, bodies, loose);
+        outline.add_spheres(&Spheres::of(table, "grains").expect("spheres"), bodies, loose);
         outline.points().iter().map(|p| p.norm()).fold(0.0, f64::max)
     }
 
     /// 1000 points on a ball of radius 1, and some 10 km off.
-    fn with_strays(strays: usize) -> Spheres {
+    fn with_strays(strays: usize) -> Table {
         let point = |i: usize| {
             let (a, z) = (2.4 * i as f64, (i as f64 + 0.5) / 500.0 - 1.0);
             let r = (1.0 - z * z).sqrt();
@@ -132,7 +133,11 @@ mod tests {
         };
         let mut all: Vec<Vec3> = (0..1000).map(point).collect();
         all.extend(vec![Vec3::new(1e4, 0.0, 0.0); strays]);
-        let centre = std::array::from_fn(|k| all.iter().map(|p| p[k]).collect());
-        Spheres { centre, radius: vec![0.0; all.len()], sized: true }
+        let mut table = Table::default();
+        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            table.push(axis, Values::F64(all.iter().map(|p| p[k]).collect())).expect("as many rows");
+        }
+        table.push("radius", Values::F64(vec![1e-12; all.len()])).expect("as many rows");
+        table
     }
 }

@@ -1,5 +1,7 @@
 //! Ranges, units and round numbers for colour bars and scale bars.
 
+use std::borrow::Borrow;
+
 /// A range of values to colour by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
@@ -14,18 +16,19 @@ impl Range {
     pub const EMPTY: Range = Range { lo: f64::INFINITY, hi: f64::NEG_INFINITY };
 
     /// Smallest and largest finite value.
-    pub fn of(values: &[f64]) -> Range {
-        values.iter().filter(|v| v.is_finite()).fold(Range::EMPTY, |r, &v| r.with(Range { lo: v, hi: v }))
+    pub fn of(values: impl IntoIterator<Item: Borrow<f64>>) -> Range {
+        finite(values).fold(Range::EMPTY, |r, v| r.with(Range { lo: v, hi: v }))
     }
 
     /// What 98 % of the values lie in: a few fast grains must not wash out the colours of all others.
-    pub fn of_most(values: &[f64]) -> Range {
-        let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-        if sorted.is_empty() {
+    pub fn of_most(values: impl IntoIterator<Item: Borrow<f64>>) -> Range {
+        let mut values: Vec<f64> = finite(values).collect();
+        if values.is_empty() {
             return Range::EMPTY;
         }
-        sorted.sort_unstable_by(f64::total_cmp);
-        let at = |share: f64| sorted[(share * (sorted.len() - 1) as f64).round() as usize];
+        let last = (values.len() - 1) as f64;
+        let mut at =
+            |share: f64| *values.select_nth_unstable_by((share * last).round() as usize, f64::total_cmp).1;
         Range { lo: at(0.01), hi: at(0.99) }
     }
 
@@ -52,6 +55,11 @@ impl Range {
     pub fn share(self, value: f64) -> f64 {
         ((value - self.lo) / (self.hi - self.lo)).clamp(0.0, 1.0)
     }
+}
+
+/// The finite ones of the values.
+fn finite(values: impl IntoIterator<Item: Borrow<f64>>) -> impl Iterator<Item = f64> {
+    values.into_iter().map(|v| *v.borrow()).filter(|v| v.is_finite())
 }
 
 /// The prefixed unit in which `largest` is easy to read, and how many of it make one of `unit`.

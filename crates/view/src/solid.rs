@@ -44,12 +44,12 @@ impl Solid {
             return false;
         }
         let at = |k: usize| spheres.at(rows[k] as usize);
-        let scale = spheres.radius[rows[0] as usize] / self.spheres[0].1;
-        let near = |a: f64, b: f64| (a - b).abs() <= MISFIT * spheres.radius[rows[0] as usize];
+        let scale = spheres.radius(rows[0] as usize) / self.spheres[0].1;
+        let near = |a: f64, b: f64| (a - b).abs() <= MISFIT * spheres.radius(rows[0] as usize);
         let far = |k: usize, n: usize| scale * (self.spheres[k].0 - self.spheres[n].0).norm();
         let last = rows.len() - 1;
         (0..rows.len()).all(|k| {
-            near(spheres.radius[rows[k] as usize], scale * self.spheres[k].1)
+            near(spheres.radius(rows[k] as usize), scale * self.spheres[k].1)
                 && [0, last / 2, last].iter().all(|&n| near((at(k) - at(n)).norm(), far(k, n)))
         })
     }

@@ -3,71 +3,84 @@
 use crate::{ViewError, scale::Range};
 use geom::{LARGEST, Vec3};
 use std::collections::HashSet;
-use stream::Table;
+use stream::{Table, Values};
 
-/// Spheres in columns.
-#[derive(Default)]
-pub(crate) struct Spheres {
+/// Spheres in columns of a table, which are read where they are: of millions a second copy would be felt.
+pub(crate) struct Spheres<'a> {
     /// x, y and z of the centres [m].
-    pub centre: [Vec<f64>; 3],
-    /// Radii [m]; for points without one, half their usual distance.
-    pub radius: Vec<f64>,
-    /// Whether the radius is a column of the table.
-    pub sized: bool,
+    pub centre: [&'a Values; 3],
+    /// Radii [m], where they are a column.
+    radius: Option<&'a Values>,
+    /// Radius of points without one [m]: half their usual distance.
+    usual: f64,
+    /// Size as drawn [–].
+    pub shrunk: f64,
 }
 
-impl Spheres {
+impl Spheres<'_> {
     /// Takes x, y, z and radius out of `table`; `name` is for messages.
     ///
     /// # Errors
     /// A position is missing, a number is not finite, or a radius is not above 0.
-    pub fn of(table: &Table, name: &str) -> Result<Spheres, ViewError> {
+    pub fn of<'a>(table: &'a Table, name: &str) -> Result<Spheres<'a>, ViewError> {
         let column = |column| {
             let missing = || ViewError::NoPosition { name: name.to_owned(), column };
-            finite(table, name, column).transpose().ok_or_else(missing)?
+            finite(table, name, column)?.ok_or_else(missing)
         };
         let centre = [column("x")?, column("y")?, column("z")?];
-        let (radius, sized) = match finite(table, name, "radius")? {
-            Some(radius) => match radius.iter().position(|r| !(*r > 0.0)) {
-                None => (radius, true),
-                Some(row) => {
-                    return Err(ViewError::Radius { name: name.to_owned(), row, value: radius[row] });
-                }
-            },
-            None => (vec![0.5 * spacing(&centre); table.rows()], false),
-        };
-        Ok(Spheres { centre, radius, sized })
+        let radius = finite(table, name, "radius")?;
+        if let Some((row, value)) = radius.and_then(|r| r.iter().enumerate().find(|(_, r)| !(*r > 0.0))) {
+            return Err(ViewError::Radius { name: name.to_owned(), row, value });
+        }
+        let usual = if radius.is_some() { 0.0 } else { 0.5 * spacing(&centre) };
+        Ok(Spheres { centre, radius, usual, shrunk: 1.0 })
     }
 
     /// How many there are.
     pub fn len(&self) -> usize {
-        self.radius.len()
+        self.centre[0].len()
+    }
+
+    /// Whether the radius is a column of the table.
+    pub fn sized(&self) -> bool {
+        self.radius.is_some()
     }
 
     /// The centre of one [m].
     pub fn at(&self, i: usize) -> Vec3 {
-        Vec3::new(self.centre[0][i], self.centre[1][i], self.centre[2][i])
+        Vec3::from(self.centre.map(|axis| axis.get(i)))
+    }
+
+    /// The radius of one [m].
+    pub fn radius(&self, i: usize) -> f64 {
+        self.shrunk * self.radius.map_or(self.usual, |radius| radius.get(i))
+    }
+
+    /// The radii of all [m].
+    pub fn radii(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..self.len()).map(|i| self.radius(i))
     }
 }
 
-/// All values, unless the outer 1 % of them take up more than half the width.
-fn most_of(values: &[f64]) -> Range {
-    let (all, most) = (Range::of(values), Range::of_most(values));
-    let far = values.len() > 200 && all.hi - all.lo > 2.0 * (most.hi - most.lo);
-    if far { most } else { all }
-}
-
-fn finite(table: &Table, name: &str, column: &'static str) -> Result<Option<Vec<f64>>, ViewError> {
-    let Some(values) = table.get(column).map(stream::Values::to_f64) else { return Ok(None) };
-    match values.iter().position(|v| !(v.abs() <= LARGEST)) {
-        Some(row) => Err(ViewError::NotFinite { name: name.to_owned(), row, column, value: values[row] }),
+/// The values of a column, all of them finite.
+fn finite<'a>(table: &'a Table, name: &str, column: &'static str) -> Result<Option<&'a Values>, ViewError> {
+    let Some(values) = table.get(column) else { return Ok(None) };
+    match values.iter().enumerate().find(|(_, v)| !(v.abs() <= LARGEST)) {
+        Some((row, value)) => Err(ViewError::NotFinite { name: name.to_owned(), row, column, value }),
         None => Ok(Some(values)),
     }
 }
 
+/// All values, unless the outer 1 % of them take up more than half the width.
+fn most_of(values: &Values) -> Range {
+    let (all, most) = (Range::of(values.iter()), Range::of_most(values.iter()));
+    let far = values.len() > 200 && all.hi - all.lo > 2.0 * (most.hi - most.lo);
+    if far { most } else { all }
+}
+
 /// The usual distance of neighbours on a surface [m]: the area is counted in occupied boxes of a coarse grid.
-fn spacing(centre: &[Vec<f64>; 3]) -> f64 {
-    let box_of = centre.each_ref().map(|c| most_of(c));
+fn spacing(centre: &[&Values; 3]) -> f64 {
+    let box_of = centre.map(most_of);
     let widest = box_of.iter().map(|r| r.hi - r.lo).fold(0.0, f64::max);
     let count = centre[0].len();
     if count < 2 || widest <= 0.0 {
@@ -75,8 +88,9 @@ fn spacing(centre: &[Vec<f64>; 3]) -> f64 {
     }
     let cells = ((count as f64 / 8.0).sqrt()).clamp(2.0, 128.0);
     let side = widest / cells;
-    let cell =
-        |k: usize, i: usize| ((centre[k][i].clamp(box_of[k].lo, box_of[k].hi) - box_of[k].lo) / side) as u16;
+    let cell = |k: usize, i: usize| {
+        ((centre[k].get(i).clamp(box_of[k].lo, box_of[k].hi) - box_of[k].lo) / side) as u16
+    };
     let occupied: HashSet<[u16; 3]> = (0..count).map(|i| [cell(0, i), cell(1, i), cell(2, i)]).collect();
     side * (occupied.len() as f64 / count as f64).sqrt()
 }
@@ -84,7 +98,6 @@ fn spacing(centre: &[Vec<f64>; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use stream::Values;
 
     fn table(x: Vec<f64>) -> Table {
         let mut table = Table::default();
@@ -117,8 +130,8 @@ mod tests {
     fn points_of_a_square_lattice_get_half_its_spacing() {
         let lattice = |i: i32| [f64::from(i % 100) * 0.1, f64::from(i / 100) * 0.1];
         let points: Vec<[f64; 2]> = (0..10_000).map(lattice).collect();
-        let column = |k: usize| points.iter().map(|p| p[k]).collect::<Vec<f64>>();
-        let found = spacing(&[column(0), column(1), vec![0.0; 10_000]]);
+        let column = |k: usize| Values::F64(points.iter().map(|p| p[k]).collect());
+        let found = spacing(&[&column(0), &column(1), &Values::F64(vec![0.0; 10_000])]);
         assert!((found / 0.1 - 1.0).abs() < 0.3, "{found}");
     }
 }

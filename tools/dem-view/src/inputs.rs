@@ -1,6 +1,7 @@
 //! Reads what is to be shown: runs and walls (MCAP), and clouds, detected by their content.
 
 use crate::args::Args;
+use ::cloud::Cloud;
 use anyhow::Context;
 use cli::Source;
 use serde_json::{Value, json};
@@ -8,14 +9,12 @@ use std::io::{Cursor, Read};
 use stream::{
     Table, Values,
     mcap::{Event, Reader},
+    ply::Opened,
 };
 use view::{Chosen, LayerHead, Motion, Role, Show, SurfaceShape, WallSurface};
 
 /// The bytes that every MCAP stream begins with.
 const MCAP: &[u8] = b"\x89MCAP";
-
-/// Bytes that tell the format of a cloud.
-const HEAD: u64 = 1 << 14;
 
 /// The name without its folder.
 pub fn short_name(source: &Source) -> String {
@@ -111,42 +110,31 @@ fn run(
 }
 
 /// A mesh, or a cloud: its points are grains when they have a radius and an id, and wall spheres when they have a radius only.
-fn cloud(mut from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
-    let mut bytes = Vec::new();
+fn cloud(from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let cannot = || format!("{name}: cannot read");
-    from.by_ref().take(HEAD).read_to_end(&mut bytes).with_context(cannot)?;
-    // Bytes of an unknown format may come from an endless stream.
-    if ::cloud::formats::name_of(&bytes).is_some() {
-        stream::whole::rest(&mut from, &mut bytes).with_context(cannot)?;
-    }
     let factor = args.lengths.factor().unwrap_or(1.0);
-    if !args.pick && (has_faces(&bytes) || mesh::is_drawing(&bytes).is_some()) {
-        return drawing(&bytes, name, factor, show);
-    }
-    let (mut cloud, dropped) = ::cloud::from_bytes(bytes)?.finite();
+    let cloud = match Opened::new(from).with_context(cannot)? {
+        // A plain cloud: its bytes are never all in memory.
+        Opened::Blocks(blocks) => ::cloud::formats::go_on(Opened::Blocks(blocks))?,
+        Opened::Other(mut bytes, mut from) => {
+            // Bytes of an unknown format may come from an endless stream.
+            if ::cloud::formats::name_of(&bytes).is_some() {
+                stream::whole::rest(&mut from, &mut bytes).with_context(cannot)?;
+            }
+            if !args.pick && (has_faces(&bytes) || mesh::is_drawing(&bytes).is_some()) {
+                return drawing(&bytes, name, factor, show);
+            }
+            ::cloud::from_bytes(bytes)?
+        }
+    };
+    let (mut cloud, dropped) = cloud.finite();
     if factor != 1.0 {
         cloud.scale(factor);
     }
     if dropped > 0 {
         cli::warn(&format!("{name}: {dropped} points without finite coordinates are not shown"));
     }
-    let axis = |k: usize| Values::F64(cloud.points.iter().map(|p| p[k]).collect());
-    let mut table = Table::with_rows(cloud.points.len());
-    for (k, column) in ["x", "y", "z"].into_iter().enumerate() {
-        table.push(column, axis(k))?;
-    }
-    for column in cloud.attributes.columns() {
-        let is_mark = args.pick && column.name == ::cloud::crop::MARK;
-        let values = match is_mark.then(|| ::cloud::crop::marks(&cloud)) {
-            None => column.values.clone(),
-            // A page takes bytes for marks: cloud-crop says what is one.
-            Some(Some(marks)) => Values::U8(marks),
-            Some(None) => Values::F64(column.values.to_f64()),
-        };
-        table.push(&column.name, values)?;
-    }
-    // Millions of points are held once.
-    drop(cloud);
+    let table = table(cloud, args.pick)?;
     let has = |column| table.get(column).is_some();
     let role = match (has("radius"), has("id")) {
         (true, true) => Role::Grains,
@@ -157,6 +145,35 @@ fn cloud(mut from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> 
     let layer = show.layer(LayerHead::new(role, name));
     show.push(layer, 0.0, table)?;
     Ok(vec![json!({ "input": name, "points": points })])
+}
+
+/// A cloud as a table, in the type its coordinates came in; `pick`: marks of cloud-crop as a page takes them.
+fn table(mut cloud: Cloud, pick: bool) -> anyhow::Result<Table> {
+    let marks = if pick { ::cloud::crop::marks(&cloud) } else { None };
+    let points = std::mem::take(&mut cloud.points);
+    let mut table = Table::with_rows(points.len());
+    for (k, column) in ["x", "y", "z"].into_iter().enumerate() {
+        table.push(
+            column,
+            match cloud.double {
+                true => Values::F64(points.iter().map(|p| p[k]).collect()),
+                false => Values::F32(points.iter().map(|p| p[k] as f32).collect()),
+            },
+        )?;
+    }
+    // Millions of points are held once, and so are their columns.
+    drop(points);
+    for (name, values) in cloud.attributes.into_columns() {
+        let is_mark = pick && name == ::cloud::crop::MARK;
+        let values = match &marks {
+            _ if !is_mark => values,
+            // A page takes bytes for marks: cloud-crop says what is one.
+            Some(marks) => Values::U8(marks.clone()),
+            None => Values::F64(values.to_f64()),
+        };
+        table.push(&name, values)?;
+    }
+    Ok(table)
 }
 
 /// Whether this is a PLY file with faces in it.

@@ -18,15 +18,15 @@ pub(crate) struct Exact {
 
 impl Exact {
     /// Packs the positions, and the marks that a table has.
-    pub fn of(centre: &[Vec<f64>; 3], table: &Table) -> Exact {
-        let short = centre.iter().flatten().all(|&c| f64::from(c as f32) == c);
+    pub fn of(centre: &[&Values; 3], table: &Table) -> Exact {
+        let short = centre.iter().flat_map(|axis| axis.iter()).all(|c| f64::from(c as f32) == c);
         let width = if short { 4 } else { 8 };
         let mut bytes = Vec::with_capacity(3 * width * centre[0].len());
         for i in 0..centre[0].len() {
             for axis in centre {
                 match short {
-                    true => bytes.extend_from_slice(&(axis[i] as f32).to_le_bytes()),
-                    false => bytes.extend_from_slice(&axis[i].to_le_bytes()),
+                    true => bytes.extend_from_slice(&(axis.get(i) as f32).to_le_bytes()),
+                    false => bytes.extend_from_slice(&axis.get(i).to_le_bytes()),
                 }
             }
         }
@@ -49,7 +49,8 @@ mod tests {
 
     #[test]
     fn four_bytes_are_enough_only_where_no_bit_is_lost() {
-        let at = |x: f64| Exact::of(&[vec![x], vec![0.5], vec![-3.0]], &Table::with_rows(1));
+        let one = |x: f64| Values::F64(vec![x]);
+        let at = |x: f64| Exact::of(&[&one(x), &one(0.5), &one(-3.0)], &Table::with_rows(1));
         assert_eq!((at(0.25).width, at(0.25).len()), (4, 12));
         assert_eq!((at(0.1).width, at(0.1).len()), (8, 24));
         assert_eq!(at(0.1).bytes[..8], 0.1f64.to_le_bytes());

@@ -217,25 +217,28 @@ impl Page {
         let spheres = Spheres::of(table, &layer.name)?;
         let moving = layer.role == Role::Grains;
         if layer.frames.is_empty() {
-            let sized = spheres.sized && !layer.role.is_rods();
+            let sized = spheres.sized() && !layer.role.is_rods();
             layer.fields = new_fields(table, all_fields, sized, self.options.colour.as_deref());
-            layer.point_radius =
-                if spheres.sized { 0.0 } else { spheres.radius.first().copied().unwrap_or(0.0) };
+            let points = !spheres.sized() && spheres.len() > 0;
+            layer.point_radius = if points { spheres.radius(0) } else { 0.0 };
             layer.exact = self.options.pick.as_ref().map(|_| Exact::of(&spheres.centre, table));
         }
-        if moving && spheres.sized {
-            self.sizes.add(spheres.radius.iter().map(|r| 2.0 * r));
+        if moving && spheres.sized() {
+            self.sizes.add(spheres.radii().map(|r| 2.0 * r));
         }
         let bodies = if moving { bodies(table) } else { Vec::new() };
         if layer.role.is_rods() {
-            layer.add_reach(table, &spheres.radius);
+            layer.add_reach(table, &spheres);
         } else {
             layer.outline.add_spheres(&spheres, &bodies, layer.role != Role::Walls);
             if layer.outline.leaves_out(&spheres) {
                 layer.strays.add_spheres(&spheres, &[], false);
             }
         }
-        let mut columns = Vec::new();
+        let last = layer.frames.last();
+        let mut packed = Packed::new(time, &spheres, last);
+        packed.grains = GrainCount::with(spheres.len(), &bodies);
+        packed.solids = layer.solids.find(&spheres, &bodies, last);
         for field in &mut layer.fields {
             let mut values = field::values(table, &field.name).unwrap_or_else(|| vec![0.0; table.rows()]);
             if !field.whole && field.name != RADIUS {
@@ -243,11 +246,8 @@ impl Page {
             }
             field.all = field.all.with(Range::of(&values));
             field.most = field.most.with(Range::of_most(&values));
-            columns.push(values);
+            packed.add(field, &values, last);
         }
-        let mut packed = Packed::new(time, &spheres, &columns, &layer.fields, layer.frames.last());
-        packed.grains = GrainCount::with(spheres.len(), &bodies);
-        packed.solids = layer.solids.find(&spheres, &bodies, layer.frames.last());
         layer.frames.push(packed, self.stride);
         self.given += usize::from(moving);
         self.fit()
@@ -288,11 +288,11 @@ impl Page {
 
 impl PageLayer {
     /// Takes in the lengths of arrows.
-    fn add_reach(&mut self, table: &Table, radius: &[f64]) {
+    fn add_reach(&mut self, table: &Table, spheres: &Spheres) {
         let [x, y, z] = extras::ALONG.map(|c| table.get(c).map(Values::to_f64).unwrap_or_default());
         let length = |k: usize| (x[k] * x[k] + y[k] * y[k] + z[k] * z[k]).sqrt();
-        let most = Range::of_most(&(0..x.len()).map(length).collect::<Vec<f64>>()).hi;
-        let usual = radius.iter().sum::<f64>() / radius.len().max(1) as f64;
+        let most = Range::of_most((0..x.len()).map(length)).hi;
+        let usual = spheres.radii().sum::<f64>() / spheres.len().max(1) as f64;
         self.reach = [self.reach[0].max(most), self.reach[1].max(usual)];
     }
 

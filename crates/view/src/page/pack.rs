@@ -27,12 +27,15 @@ pub(crate) struct Column {
 }
 
 impl Column {
-    fn new(values: &[f64], range: Range, width: usize, last: Option<&Column>) -> Column {
+    fn new(
+        values: impl ExactSizeIterator<Item = f64>,
+        range: Range,
+        width: usize,
+        last: Option<&Column>,
+    ) -> Column {
         let range = if range.lo > range.hi { NO_RANGE } else { range };
         let mut bytes = Vec::with_capacity(values.len() * width);
-        for &v in values {
-            quantise(v, range, width, &mut bytes);
-        }
+        values.for_each(|v| quantise(v, range, width, &mut bytes));
         let same = last.filter(|l| l.range == range && l.width == width && *l.bytes == bytes);
         Column { range, width, bytes: same.map_or_else(|| Arc::new(bytes), |l| Arc::clone(&l.bytes)) }
     }
@@ -84,32 +87,19 @@ pub(crate) struct Packed {
 }
 
 impl Packed {
-    /// Packs a frame; `last` is the one before, whose box and bytes are used again where they fit.
-    pub fn new(
-        time: f64,
-        spheres: &Spheres,
-        columns: &[Vec<f64>],
-        fields: &[Field],
-        last: Option<&Packed>,
-    ) -> Packed {
-        let extent = std::array::from_fn(|k| roomy(Range::of(&spheres.centre[k]), last.map(|l| l.extent[k])));
+    /// Packs a frame, without its fields; `last` is the one before, whose box and bytes are used again where they fit.
+    pub fn new(time: f64, spheres: &Spheres, last: Option<&Packed>) -> Packed {
+        let range = |k: usize| Range::of(spheres.centre[k].iter());
+        let extent = std::array::from_fn(|k| roomy(range(k), last.map(|l| l.extent[k])));
         let mut bytes = Vec::with_capacity(spheres.len() * 6);
         for i in 0..spheres.len() {
-            (0..3).for_each(|k| quantise(spheres.centre[k][i], extent[k], 2, &mut bytes));
+            (0..3).for_each(|k| quantise(spheres.centre[k].get(i), extent[k], 2, &mut bytes));
         }
         let same = last.filter(|l| l.extent == extent && *l.position == bytes);
         let position = same.map_or_else(|| Arc::new(bytes), |l| Arc::clone(&l.position));
-        let sizes = Range::of(&spheres.radius);
-        let radii: &[f64] = if sizes.hi > sizes.lo { &spheres.radius } else { &[] };
-        let pack = |n: usize| {
-            let before = last.and_then(|l| l.fields.get(n));
-            let all = Range::of(&columns[n]);
-            let width = if fields[n].whole { width_of(all) } else { None };
-            match width {
-                Some(width) => Column::new(&columns[n], whole(all, width), width, before),
-                None => Column::new(&columns[n], all, 2, before),
-            }
-        };
+        let sizes = Range::of(spheres.radii());
+        let count = if sizes.hi > sizes.lo { spheres.len() } else { 0 };
+        let radii = (0..count).map(|i| spheres.radius(i));
         Packed {
             time,
             count: spheres.len(),
@@ -118,8 +108,19 @@ impl Packed {
             extent,
             position,
             radius: Column::new(radii, sizes, 2, last.map(|l| &l.radius)),
-            fields: (0..columns.len()).map(pack).collect(),
+            fields: Vec::new(),
         }
+    }
+
+    /// Packs the next field.
+    pub fn add(&mut self, field: &Field, values: &[f64], last: Option<&Packed>) {
+        let before = last.and_then(|l| l.fields.get(self.fields.len()));
+        let (all, values) = (Range::of(values), values.iter().copied());
+        let width = if field.whole { width_of(all) } else { None };
+        self.fields.push(match width {
+            Some(width) => Column::new(values, whole(all, width), width, before),
+            None => Column::new(values, all, 2, before),
+        });
     }
 
     /// Bound on the error of a position along any axis by packing [m].
@@ -165,6 +166,7 @@ fn roomy(needed: Range, last: Option<Range>) -> Range {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use stream::{Table, Values};
 
     /// The value a packed number stands for, as the page computes it.
     fn unpacked(column: &[u8], i: usize, range: Range) -> f64 {
@@ -172,22 +174,28 @@ mod tests {
         range.lo + q / 65_535.0 * (range.hi - range.lo)
     }
 
-    fn spheres(n: usize, scale: f64) -> Spheres {
+    fn spheres(n: usize, scale: f64) -> Table {
         let wave = |i: usize, f: f64| scale * (i as f64 * f).sin();
-        let axis = |f: f64| (0..n).map(|i| wave(i, f)).collect::<Vec<f64>>();
-        Spheres { centre: [axis(0.7), axis(1.3), vec![2.0; n]], radius: vec![0.01; n], sized: true }
+        let axis = |f: f64| Values::F64((0..n).map(|i| wave(i, f)).collect());
+        let mut table = Table::default();
+        let even = |value: f64| Values::F64(vec![value; n]);
+        for (name, values) in [("x", axis(0.7)), ("y", axis(1.3)), ("z", even(2.0)), ("radius", even(0.01))] {
+            table.push(name, values).expect("as many rows");
+        }
+        table
     }
 
     #[test]
     fn no_position_is_off_by_more_than_the_stated_error() {
-        let given = spheres(5000, 3.7);
-        let packed = Packed::new(0.0, &given, &[], &[], None);
+        let table = spheres(5000, 3.7);
+        let given = Spheres::of(&table, "run").expect("spheres");
+        let packed = Packed::new(0.0, &given, None);
         let bound = packed.position_error() * (1.0 + 1e-9);
         assert!(bound < 3.7 * 2.0 * 1.05 / 131_070.0);
         for i in 0..given.len() {
             for k in 0..3 {
                 let error =
-                    (unpacked(&packed.position, 3 * i + k, packed.extent[k]) - given.centre[k][i]).abs();
+                    (unpacked(&packed.position, 3 * i + k, packed.extent[k]) - given.centre[k].get(i)).abs();
                 assert!(error <= bound, "{i} {k} {error}");
             }
         }
@@ -195,9 +203,10 @@ mod tests {
 
     #[test]
     fn what_does_not_move_is_stored_once() {
-        let given = spheres(100, 1.0);
-        let first = Packed::new(0.0, &given, &[], &[], None);
-        let second = Packed::new(1.0, &given, &[], &[], Some(&first));
+        let table = spheres(100, 1.0);
+        let given = Spheres::of(&table, "run").expect("spheres");
+        let first = Packed::new(0.0, &given, None);
+        let second = Packed::new(1.0, &given, Some(&first));
         assert!(Arc::ptr_eq(&first.position, &second.position));
         assert!(first.radius.bytes.is_empty());
     }
@@ -208,7 +217,7 @@ mod tests {
             let id: Vec<f64> = (0..40_000).map(|i| (f64::from(i) * step).floor() + 17.0).collect();
             assert_eq!(width_of(Range::of(&id)), Some(width));
             let range = whole(Range::of(&id), width);
-            let column = Column::new(&id, range, width, None);
+            let column = Column::new(id.iter().copied(), range, width, None);
             let number = |i: usize| {
                 let bytes = &column.bytes[width * i..width * (i + 1)];
                 bytes.iter().rev().fold(0.0, |sum, &b| 256.0 * sum + f64::from(b))

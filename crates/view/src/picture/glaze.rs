@@ -73,8 +73,8 @@ impl Glaze {
             for piece in &pieces {
                 piece.fill(rows, width, |at, inverse| {
                     let depth = (1.0 / inverse) as f32;
-                    if inverse <= piece.farthest && depth < solid.depth[at] {
-                        let before = usize::from(depth < glass.depth[at]);
+                    if inverse <= piece.farthest && depth < solid.depth(at) {
+                        let before = usize::from(depth < glass.depth(at));
                         if piece.plane && before == 0 {
                             return;
                         }

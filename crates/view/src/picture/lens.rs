@@ -95,7 +95,7 @@ impl Lens {
         let mut sides = [Range::EMPTY; 2];
         for point in seen.map(on) {
             for (side, (at, size)) in sides.iter_mut().zip(point) {
-                *side = side.with(Range::of(&[at.clamp(-size, size)]));
+                *side = side.with(Range::of([at.clamp(-size, size)]));
             }
         }
         let longer = sides.map(|side| (side.hi - side.lo).max(0.0)).into_iter().fold(0.0, f64::max);
@@ -186,7 +186,7 @@ impl Lens {
 /// so d = (A − B)/2hₓ and tₓ = (A + B)/2, and the same with y; x, y, z are seen from `near`, any point.
 fn fitted(places: &[Vec3], near: Vec3, axes: &[Vec3; 3], half: [f64; 2]) -> (Vec3, f64) {
     let seen: Vec<[f64; 3]> = places.iter().map(|p| axes.map(|a| a.dot(&(p - near)))).collect();
-    let ends = |of: &dyn Fn(&[f64; 3]) -> f64| Range::of(&seen.iter().map(of).collect::<Vec<f64>>());
+    let ends = |of: &dyn Fn(&[f64; 3]) -> f64| Range::of(seen.iter().map(of));
     let depth = ends(&|p| p[2]);
     let far = [0, 1].map(|k| ends(&|p| p[k] - half[k] * p[2]).hi);
     let low = [0, 1].map(|k| ends(&|p| p[k] + half[k] * p[2]).lo);

@@ -4,6 +4,7 @@
 use super::{
     PictureOptions,
     glaze::Glaze,
+    joined::Joined,
     kin::Kin,
     lens::{Lens, SAMPLES},
     paint::{Painted, PaintedLayer},
@@ -12,7 +13,7 @@ use super::{
     splat::{Depths, Met, NOTHING, splat},
     theme::Theme,
 };
-use crate::{Role, spheres::Spheres};
+use crate::Role;
 use geom::Vec3;
 use rayon::prelude::*;
 
@@ -38,14 +39,13 @@ const SPIRAL: [[f32; 2]; 8] = [
 ];
 
 /// One kind of surface in the picture, with what is needed to light it.
-struct Shaded {
+struct Shaded<'a> {
     depths: Depths,
     /// What it keeps the lamp's light from.
     shadow: Shadow,
-    /// Colour of each sphere and, after these, each rod, by its number.
-    colour: Vec<[f32; 3]>,
-    /// How many spheres there are.
-    spheres: usize,
+    spheres: Joined<'a>,
+    /// Their numbers follow those of the spheres.
+    rods: Vec<Rod>,
     /// Which of them are one body.
     kin: Kin,
     /// How far around a sample shade is looked for [m].
@@ -58,7 +58,7 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
     let see_through = |l: &&PaintedLayer| l.role == Role::Walls && !walls_only && options.wall_opacity < 1.0;
     let (glass, solid): (Vec<&PaintedLayer>, Vec<&PaintedLayer>) =
         painted.layers.iter().partition(see_through);
-    let keep = |place: Vec3| !options.cut || lens.seen(place)[2] >= lens.distance;
+    let keep = options.cut.then_some(|place: Vec3| lens.seen(place)[2] >= lens.distance);
     let extent = painted.ball();
     let solid = Shaded::new(&solid, &painted.rods, lens, extent, keep);
     let glass = Shaded::new(&glass, &[], lens, extent, keep);
@@ -87,7 +87,7 @@ pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u
 fn whole(solid: &Depths, glass: &Depths, lens: &Lens, [x, y]: [usize; 2]) -> bool {
     let place =
         |sample: &usize| (y * SAMPLES + sample / SAMPLES) * lens.size[0] + x * SAMPLES + sample % SAMPLES;
-    let seen = |sample: &usize| [solid.ball[place(sample)], glass.ball[place(sample)]];
+    let seen = |sample: &usize| [solid, glass].map(|depths| depths.ball(place(sample)));
     let first = seen(&ALL[0]);
     first != [NOTHING; 2] && ALL.iter().all(|sample| seen(sample) == first)
 }
@@ -103,7 +103,7 @@ fn through(
     let place = at[1] * lens.size[0] + at[0];
     let grain = solid.colour(lens, at, None).map(|(colour, edge)| theme.lit(colour, edge));
     let mut seen = glaze.behind(place, grain.unwrap_or(theme.paper));
-    if glass.depths.depth[place] < solid.depths.depth[place]
+    if glass.depths.depth(place) < solid.depths.depth(place)
         && let Some((wall, _)) = glass.colour(lens, at, Some(&solid.shadow))
     {
         let share = if grain.is_some() { opacity } else { theme.wall + (1.0 - theme.wall) * opacity };
@@ -112,52 +112,42 @@ fn through(
     glaze.before(place, seen)
 }
 
-impl Shaded {
+impl<'a> Shaded<'a> {
     /// The surfaces of all `layers` together; walls only where `keep` holds for their place.
     fn new(
-        layers: &[&PaintedLayer],
+        layers: &[&'a PaintedLayer<'a>],
         rods: &[Rod],
         lens: &Lens,
         extent: (Vec3, f64),
-        keep: impl Fn(Vec3) -> bool,
+        keep: Option<impl Fn(Vec3) -> bool + Copy>,
     ) -> Self {
-        let mut joined = Spheres::default();
-        let (mut colour, mut kin, mut rods) = (Vec::new(), Kin::default(), rods.to_vec());
+        let spheres = Joined::new(layers, |layer| keep.filter(|_| layer.role == Role::Walls));
+        let (mut kin, mut rods) = (Kin::default(), rods.to_vec());
         let mut of_bodies = vec![None; rods.len()];
-        for layer in layers {
+        for (layer, first) in spheres.layers() {
             // Only walls lose spheres by `keep`, and they have no bodies.
-            let bodies = join_bodies(&mut kin, layer, joined.len(), lens);
+            let bodies = join_bodies(&mut kin, layer, first, lens);
             for (n, own) in &layer.solids {
                 of_bodies.extend(vec![Some(bodies[*n]); own.len()]);
                 rods.extend(own);
             }
-            for i in 0..layer.spheres.len() {
-                let place = layer.spheres.at(i);
-                if layer.role == Role::Walls && !keep(place) {
-                    continue;
-                }
-                (0..3).for_each(|k| joined.centre[k].push(place[k]));
-                joined.radius.push(layer.spheres.radius[i]);
-                colour.push(layer.colour[i]);
-            }
         }
         for (n, body) in of_bodies.iter().enumerate() {
-            body.iter().for_each(|&body| kin.join(joined.len() + n, body));
+            body.iter().for_each(|&body| kin.join(spheres.len() + n, body));
         }
-        let usual = middle_of(joined.radius.clone());
-        let depths = splat(&joined, &rods, lens);
-        let shadow = Shadow::of(&joined, &rods, &kin, usual, lens, extent);
-        colour.extend(rods.iter().map(|rod| rod.colour));
-        Shaded { depths, shadow, colour, spheres: joined.len(), kin, reach: 4.0 * usual }
+        let usual = spheres.usual_radius();
+        let depths = splat(&spheres, &rods, lens);
+        let shadow = Shadow::of(&spheres, &rods, &kin, usual, lens, extent);
+        Shaded { depths, shadow, spheres, rods, kin, reach: 4.0 * usual }
     }
 
     /// The lit colour at a sample, and how near to its outline that is; or none where there is nothing. `others` cast
     /// shadows on it too.
     fn colour(&self, lens: &Lens, at: [usize; 2], others: Option<&Shadow>) -> Option<([f32; 3], f32)> {
         let place = at[1] * lens.size[0] + at[0];
-        let depth = f64::from(self.depths.depth[place]);
+        let depth = f64::from(self.depths.depth(place));
         let point = lens.at(at, depth);
-        let mut met = self.depths.met(place, point, self.spheres)?;
+        let mut met = self.depths.met(place, point, &self.spheres, lens)?;
         met.body = self.kin.of(met.number);
         met.normal = self.kin.normal(met.number, point).unwrap_or(met.normal);
         let normal = met.normal;
@@ -170,10 +160,18 @@ impl Shaded {
         let rim = (1.0 + normal[2]).clamp(0.0, 1.0).powi(3);
         let sky = open * (0.6 + 0.4 * normal[1]) * (0.10 + 0.22 * rim);
         let gloss = sky + 0.12 * open * lamp.powi(12);
-        let own = self.colour[met.number];
+        let own = self.own_colour(met.number);
         // Light colours need no gloss to show their shape.
         let lit = own.map(|c| (c * bright + (1.0 - 0.8 * c) * gloss).min(1.0));
         Some((lit, (1.0 + normal[2]).clamp(0.0, 1.0)))
+    }
+
+    /// The colour of a sphere or rod, parts 0 to 1.
+    fn own_colour(&self, number: usize) -> [f32; 3] {
+        match number.checked_sub(self.spheres.len()) {
+            None => self.spheres.colour(number),
+            Some(rod) => self.rods[rod].colour,
+        }
     }
 
     /// How much of the sky a sample sees, 0 to 1, judged by what stands around it in the picture; a body does not hide
@@ -192,7 +190,7 @@ impl Shaded {
                 continue;
             }
             let there = [x as usize, y as usize];
-            let depth = f64::from(self.depths.depth[there[1] * lens.size[0] + there[0]]);
+            let depth = f64::from(self.depths.depth(there[1] * lens.size[0] + there[0]));
             if !depth.is_finite() || met.body.is_some() && self.body_at(there, lens) == met.body {
                 continue;
             }
@@ -208,7 +206,7 @@ impl Shaded {
 
     /// The body that a sample sees.
     fn body_at(&self, at: [usize; 2], lens: &Lens) -> Option<u32> {
-        self.kin.of(self.depths.number(at[1] * lens.size[0] + at[0], self.spheres)?)
+        self.kin.of(self.depths.number(at[1] * lens.size[0] + at[0])?)
     }
 }
 
@@ -216,16 +214,10 @@ impl Shaded {
 fn join_bodies(kin: &mut Kin, layer: &PaintedLayer, first: usize, lens: &Lens) -> Vec<u32> {
     let mut smooth = vec![true; layer.bodies.len()];
     layer.solids.iter().for_each(|(n, _)| smooth[*n] = false);
-    let seen = |&row: &u32| (lens.seen(layer.spheres.at(row as usize)), layer.spheres.radius[row as usize]);
+    let seen = |&row: &u32| (lens.seen(layer.spheres.at(row as usize)), layer.spheres.radius(row as usize));
     let body = |(rows, smooth): (&Vec<u32>, bool)| {
         let numbers: Vec<usize> = rows.iter().map(|&row| first + row as usize).collect();
         kin.add(&numbers, if smooth { rows.iter().map(seen).collect() } else { Vec::new() })
     };
     layer.bodies.iter().zip(smooth).map(body).collect()
-}
-
-/// The middle one of the radii [m].
-fn middle_of(mut radius: Vec<f64>) -> f64 {
-    let middle = radius.len() / 2;
-    if radius.is_empty() { 0.0 } else { *radius.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }

@@ -5,6 +5,7 @@ mod furniture;
 mod glaze;
 mod hull;
 mod ink;
+mod joined;
 mod key;
 mod kin;
 mod lens;

@@ -57,9 +57,9 @@ fn solids(
 }
 
 /// One kind of thing, ready to draw.
-pub(crate) struct PaintedLayer {
+pub(crate) struct PaintedLayer<'a> {
     pub role: Role,
-    pub spheres: Spheres,
+    pub spheres: Spheres<'a>,
     /// A colour for each sphere, parts 0 to 1.
     pub colour: Vec<[f32; 3]>,
     /// The spheres of each clump.
@@ -83,8 +83,8 @@ pub(crate) struct Pane {
 }
 
 /// Everything in the picture.
-pub(crate) struct Painted {
-    pub layers: Vec<PaintedLayer>,
+pub(crate) struct Painted<'a> {
+    pub layers: Vec<PaintedLayer<'a>>,
     /// Bonds, cracks and arrows.
     pub rods: Vec<Rod>,
     /// Whole and broken bonds; none where they are not shown.
@@ -102,14 +102,14 @@ pub(crate) struct Painted {
     pub extent: [Range; 3],
 }
 
-impl Painted {
+impl Painted<'_> {
     /// What is there at a moment that `survey` knows.
-    pub fn new(
-        parts: &[DrawnTable],
+    pub fn new<'a>(
+        parts: &[DrawnTable<'a>],
         surfaces: &[WallSurface],
         survey: &Survey,
         options: &PictureOptions,
-    ) -> Result<Painted, ViewError> {
+    ) -> Result<Painted<'a>, ViewError> {
         if survey.role().is_none() && surfaces.is_empty() {
             return Err(ViewError::Empty);
         }
@@ -118,8 +118,8 @@ impl Painted {
         let shrunk = if parts.iter().any(|p| p.role.is_rods()) { GRAINS } else { 1.0 };
         for part in parts.iter().filter(|p| p.table.rows() > 0 && !p.role.is_rods()) {
             let mut spheres = Spheres::of(part.table, &part.name)?;
-            if part.role == Role::Grains && shrunk != 1.0 {
-                spheres.radius.iter_mut().for_each(|r| *r *= shrunk);
+            if part.role == Role::Grains {
+                spheres.shrunk = shrunk;
             }
             let shown = survey.role() == Some(part.role);
             let bodies = part.bodies();
@@ -190,7 +190,7 @@ impl Painted {
         let mut found = [0; 2];
         for layer in self.layers.iter().filter(|l| l.role == Role::Grains) {
             let count = GrainCount::with(layer.spheres.len(), &layer.bodies);
-            let missed = |row: usize| !lens.reaches(layer.spheres.at(row), layer.spheres.radius[row]);
+            let missed = |row: usize| !lens.reaches(layer.spheres.at(row), layer.spheres.radius(row));
             let mut alone: Vec<bool> = (0..layer.spheres.len()).map(missed).collect();
             for rows in &layer.bodies {
                 let all = rows.iter().all(|&row| alone[row as usize]);

@@ -2,13 +2,13 @@
 //! shadow where that drawing has something nearer (L. Williams 1978, SIGGRAPH 12, 270).
 
 use super::{
+    joined::Joined,
     kin::Kin,
     lens::Lens,
     light::LAMP,
     rods::Rod,
     splat::{Met, NOTHING, splat},
 };
-use crate::spheres::Spheres;
 use geom::Vec3;
 
 /// Side of the drawing from the lamp [sample].
@@ -40,7 +40,7 @@ impl Shadow {
     /// The shadows that spheres cast, usually of `usual` radius [m], under the lamp of an eye, in the ball around what
     /// is looked at (middle and radius [m]).
     pub fn of(
-        spheres: &Spheres,
+        spheres: &Joined,
         rods: &[Rod],
         kin: &Kin,
         usual: f64,
@@ -51,12 +51,8 @@ impl Shadow {
         let towards = (eye.place([right, up, forward]) - eye.eye).normalize();
         let lamp = Lens::far(middle, radius, towards, SIZE);
         let fine = 2.0 * radius / SIZE as f64;
-        let none = spheres.len() == 0 && rods.is_empty();
-        if none {
-            return Shadow { lamp, depth: Vec::new(), body: Vec::new(), fine, reach: REACH * usual };
-        }
         let drawn = splat(spheres, rods, &lamp);
-        let body_at = |at| drawn.number(at, spheres.len()).and_then(|n| kin.of(n)).unwrap_or(NOTHING);
+        let body_at = |at| drawn.number(at).and_then(|n| kin.of(n)).unwrap_or(NOTHING);
         let body = if kin.is_empty() { Vec::new() } else { (0..drawn.depth.len()).map(body_at).collect() };
         Shadow { lamp, depth: drawn.depth, body, fine, reach: REACH * usual }
     }

@@ -6,7 +6,7 @@ use crate::{solid::Solid, spheres::Spheres};
 /// Edges and faces of a polyhedron between the spheres of these rows.
 pub(super) fn rods(solid: &Solid, spheres: &Spheres, rows: &[u32], colour: [f32; 3]) -> Vec<Rod> {
     let at = |k: u32| spheres.at(rows[k as usize] as usize);
-    let radius = spheres.radius[rows[0] as usize];
+    let radius = spheres.radius(rows[0] as usize);
     let edge =
         |[a, b]: &[u32; 2]| Rod { ends: [at(*a), at(*b)], radii: [radius; 2], shape: RodShape::Cone, colour };
     let face = |f: &[u32; 3]| {

@@ -2,13 +2,13 @@
 //!
 //! The picture is cut into tiles; a tile draws its spheres from near to far, in the order of their numbers where
 //! equally near, and skips those behind all it has drawn. Tiles do not touch each other's samples, so the result
-//! does not depend on the number of threads.
+//! does not depend on the number of threads. What a sphere looks like is computed where it is needed, and not kept.
 
 use super::{
+    joined::Joined,
     lens::Lens,
     rods::{Rod, SeenRod},
 };
-use crate::spheres::Spheres;
 use rayon::prelude::*;
 
 /// Side of a tile [sample].
@@ -17,29 +17,29 @@ const TILE: usize = 64;
 /// No sphere here.
 pub const NOTHING: u32 = u32::MAX;
 
+/// Spheres that are given to tiles together.
+const CHUNK: usize = 1 << 14;
+
 /// A sphere as seen from the eye.
-#[derive(Clone, Copy)]
-pub struct Ball {
+struct Ball {
     /// Centre: right, up, forward [m].
-    pub centre: [f64; 3],
+    centre: [f64; 3],
     /// Radius [m].
-    pub radius: f64,
+    radius: f64,
     /// First and last sample in x and y, not yet cut to the picture.
     window: [f64; 4],
-    /// Number in the list it came from.
-    pub number: u32,
 }
 
 /// The nearest surface at each sample.
 pub struct Depths {
-    /// Distance along the axis of the eye [m]; infinite where there is nothing.
+    /// Distance along the axis of the eye [m]; infinite where there is nothing; empty without spheres and rods.
     pub depth: Vec<f32>,
-    /// The ball there, or, beyond all balls, the rod; or [`NOTHING`].
-    pub ball: Vec<u32>,
-    /// The balls.
-    pub balls: Vec<Ball>,
-    /// The rods, each with its number in the list it came from.
-    pub rods: Vec<(SeenRod, u32)>,
+    /// The number of the sphere there, or, beyond all spheres, the rod; or [`NOTHING`].
+    ball: Vec<u32>,
+    /// How many spheres were given.
+    spheres: usize,
+    /// The rods that are seen, each with its number in the list it came from.
+    rods: Vec<(SeenRod, u32)>,
 }
 
 /// What is met at a sample.
@@ -55,99 +55,97 @@ pub struct Met {
 }
 
 impl Depths {
-    /// What is at a sample that sees `point`; `spheres` is how many spheres were given.
-    pub fn met(&self, sample: usize, point: [f64; 3], spheres: usize) -> Option<Met> {
-        let found = self.ball[sample];
-        if found == NOTHING {
-            return None;
-        }
-        let found = found as usize;
-        if let Some(ball) = self.balls.get(found) {
-            let normal = std::array::from_fn(|k| ((point[k] - ball.centre[k]) / ball.radius) as f32);
-            return Some(Met { normal, radius: ball.radius, number: ball.number as usize, body: None });
-        }
-        let (rod, number) = self.rods.get(found - self.balls.len())?;
-        let (normal, radius) = (rod.normal(point), rod.radius());
-        Some(Met { normal, radius, number: spheres + *number as usize, body: None })
+    /// Distance of what is at a sample [m]; infinite where there is nothing.
+    pub fn depth(&self, sample: usize) -> f32 {
+        self.depth.get(sample).copied().unwrap_or(f32::INFINITY)
     }
 
-    /// Keeps the balls that are seen at some sample only: of a cloud of millions most are behind others.
-    fn forget_hidden(&mut self) {
-        let all = self.balls.len() as u32;
-        let mut places = vec![NOTHING; self.balls.len()];
-        self.ball.iter().filter(|found| **found < all).for_each(|&found| places[found as usize] = 0);
-        let mut kept = 0;
-        for place in places.iter_mut().filter(|place| **place == 0) {
-            *place = kept;
-            kept += 1;
+    /// What is at a sample, or [`NOTHING`]: a number that samples of the same sphere or rod share.
+    pub fn ball(&self, sample: usize) -> u32 {
+        self.ball.get(sample).copied().unwrap_or(NOTHING)
+    }
+
+    /// What is at a sample that sees `point`.
+    pub fn met(&self, sample: usize, point: [f64; 3], spheres: &Joined, lens: &Lens) -> Option<Met> {
+        let number = self.number(sample)?;
+        if number < self.spheres {
+            let (centre, radius) = (lens.seen(spheres.at(number)), spheres.radius(number));
+            let normal = std::array::from_fn(|k| ((point[k] - centre[k]) / radius) as f32);
+            return Some(Met { normal, radius, number, body: None });
         }
-        let mut seen = places.iter().map(|place| *place != NOTHING);
-        self.balls.retain(|_| seen.next().unwrap_or(false));
-        self.balls.shrink_to_fit();
-        for found in self.ball.iter_mut().filter(|found| **found != NOTHING) {
-            *found = if *found < all { places[*found as usize] } else { *found - all + kept };
-        }
+        let (rod, _) = self.rods.get(self.ball(sample) as usize - self.spheres)?;
+        Some(Met { normal: rod.normal(point), radius: rod.radius(), number, body: None })
     }
 
     /// The number of what is at a sample, as in [`Met`].
-    pub fn number(&self, sample: usize, spheres: usize) -> Option<usize> {
-        let found = self.ball[sample] as usize;
-        let rod = || self.rods.get(found - self.balls.len()).map(|(_, number)| spheres + *number as usize);
-        match self.balls.get(found) {
-            Some(ball) => Some(ball.number as usize),
-            None if self.ball[sample] == NOTHING => None,
-            None => rod(),
+    pub fn number(&self, sample: usize) -> Option<usize> {
+        let found = self.ball(sample);
+        match (found as usize).checked_sub(self.spheres) {
+            None => Some(found as usize),
+            Some(_) if found == NOTHING => None,
+            Some(rod) => self.rods.get(rod).map(|(_, number)| self.spheres + *number as usize),
         }
     }
 }
 
 /// Draws all spheres and rods.
-pub fn splat(spheres: &Spheres, rods: &[Rod], lens: &Lens) -> Depths {
-    let ball = |i: usize| seen_ball(spheres, i, lens);
-    let mut balls: Vec<Ball> = (0..spheres.len()).into_par_iter().filter_map(ball).collect();
-    let near = |b: &Ball| b.centre[2] - b.radius;
-    balls.par_sort_unstable_by(|a, b| near(a).total_cmp(&near(b)).then(a.number.cmp(&b.number)));
+pub fn splat(spheres: &Joined, rods: &[Rod], lens: &Lens) -> Depths {
     let [w, h] = lens.size;
     let across = w.div_ceil(TILE);
-    let lists = by_tile(balls.iter().map(|b| b.window), [w, h]);
     let seen = |(number, rod): (usize, &Rod)| Some((SeenRod::new(rod, lens)?, number as u32));
     let rods: Vec<(SeenRod, u32)> = rods.iter().enumerate().filter_map(seen).collect();
-    let mut depths = Depths { depth: vec![f32::INFINITY; w * h], ball: vec![NOTHING; w * h], balls, rods };
-    let bands = depths.depth.par_chunks_mut(TILE * w).zip(depths.ball.par_chunks_mut(TILE * w));
-    let rod_lists = by_tile(depths.rods.iter().map(|(rod, _)| rod.window), [w, h]);
-    let (balls, rods) = (&depths.balls, &depths.rods);
+    let samples = if spheres.len() == 0 && rods.is_empty() { 0 } else { w * h };
+    let lists = by_tile(spheres.len(), |i| Ball::seen(spheres, i, lens).map(|ball| ball.window), [w, h]);
+    let rod_lists = by_tile(rods.len(), |i| Some(rods[i].0.window), [w, h]);
+    let mut depth = vec![f32::INFINITY; samples];
+    let mut ball = vec![NOTHING; samples];
+    let bands = depth.par_chunks_mut(TILE * w).zip(ball.par_chunks_mut(TILE * w));
     bands.enumerate().for_each(|(row, (depth, ball))| {
         for column in 0..across {
             let mut tile = Tile { depth, ball, width: w, left: column * TILE, top: row * TILE };
-            tile.draw(balls, &lists[row * across + column], lens);
+            tile.draw(spheres, &lists[row * across + column], lens);
             for &number in &rod_lists[row * across + column] {
-                tile.draw_rod(&rods[number as usize].0, balls.len() as u32 + number, lens);
+                tile.draw_rod(&rods[number as usize].0, spheres.len() as u32 + number, lens);
             }
         }
     });
-    depths.forget_hidden();
-    depths
+    Depths { depth, ball, spheres: spheres.len(), rods }
 }
 
-fn seen_ball(spheres: &Spheres, i: usize, lens: &Lens) -> Option<Ball> {
-    let centre = lens.seen(spheres.at(i));
-    let radius = spheres.radius[i];
-    let window = lens.window(centre, radius)?;
-    lens.shows(window).then_some(Ball { centre, radius, window, number: i as u32 })
+impl Ball {
+    /// None where nothing of it is in the picture, or the eye is in it.
+    fn seen(spheres: &Joined, i: usize, lens: &Lens) -> Option<Ball> {
+        let (centre, radius) = (lens.seen(spheres.at(i)), spheres.radius(i));
+        let window = lens.window(centre, radius)?;
+        lens.shows(window).then_some(Ball { centre, radius, window })
+    }
 }
 
-/// The numbers of the windows that reach into each tile, in their order.
-fn by_tile(windows: impl Iterator<Item = [f64; 4]>, size: [usize; 2]) -> Vec<Vec<u32>> {
+/// The numbers of `count` things whose windows reach into each tile, in their order.
+fn by_tile(
+    count: usize,
+    window: impl Fn(usize) -> Option<[f64; 4]> + Sync,
+    size: [usize; 2],
+) -> Vec<Vec<u32>> {
     let [across, down] = size.map(|s| s.div_ceil(TILE));
-    let mut lists = vec![Vec::new(); across * down];
     let tile = |sample: f64, count: usize| (sample.max(0.0) as usize / TILE).min(count - 1);
-    for (number, [x0, x1, y0, y1]) in windows.enumerate() {
-        for row in tile(y0, down)..=tile(y1, down) {
-            for column in tile(x0, across)..=tile(x1, across) {
-                lists[row * across + column].push(number as u32);
+    let chunk = |first: usize| {
+        let mut found = Vec::new();
+        for number in first..(first + CHUNK).min(count) {
+            let Some([x0, x1, y0, y1]) = window(number) else { continue };
+            for row in tile(y0, down)..=tile(y1, down) {
+                let columns = tile(x0, across)..=tile(x1, across);
+                found.extend(columns.map(|column| [(row * across + column) as u32, number as u32]));
             }
         }
-    }
+        found
+    };
+    let found: Vec<Vec<[u32; 2]>> =
+        (0..count.div_ceil(CHUNK)).into_par_iter().map(|n| chunk(n * CHUNK)).collect();
+    let mut counts = vec![0; across * down];
+    found.iter().flatten().for_each(|[tile, _]| counts[*tile as usize] += 1);
+    let mut lists: Vec<Vec<u32>> = counts.into_iter().map(Vec::with_capacity).collect();
+    found.iter().flatten().for_each(|[tile, number]| lists[*tile as usize].push(*number));
     lists
 }
 
@@ -161,17 +159,21 @@ struct Tile<'a> {
 }
 
 impl Tile<'_> {
-    fn draw(&mut self, balls: &[Ball], list: &[u32], lens: &Lens) {
+    fn draw(&mut self, spheres: &Joined, list: &[u32], lens: &Lens) {
+        let near = |&i: &u32| (lens.seen(spheres.at(i as usize))[2] - spheres.radius(i as usize), i);
+        let mut list: Vec<(f64, u32)> = list.iter().map(near).collect();
+        list.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut behind = f32::INFINITY;
-        for (n, &number) in list.iter().enumerate() {
-            let ball = &balls[number as usize];
+        for (n, &(near, number)) in list.iter().enumerate() {
             if n % 64 == 63 {
                 behind = self.farthest();
             }
-            if (ball.centre[2] - ball.radius) as f32 > behind {
+            if near as f32 > behind {
                 return; // all others are farther still
             }
-            self.draw_ball(ball, number, lens);
+            if let Some(ball) = Ball::seen(spheres, number as usize, lens) {
+                self.draw_ball(&ball, number, lens);
+            }
         }
     }
 

@@ -19,7 +19,7 @@ pub fn sheet<'a>(surface: &'a WallSurface, plane: &Plane, extent: [Range; 3], be
     let corners: Vec<Vec3> = (0..8).map(|n| corner(extent, n)).collect();
     let reach = |d: Vec3| {
         let along = |p: &Vec3| p.dot(&d);
-        let all = Range::of(&corners.iter().map(along).collect::<Vec<f64>>());
+        let all = Range::of(corners.iter().map(along));
         if all.lo <= all.hi {
             all
         } else {
