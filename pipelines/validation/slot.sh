@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 source ./runs.sh
-SEEDS=${SEEDS:-1 2 3 4 5} HARD=${HARD-1 2}
+SEEDS=${SEEDS:-1 2 3 4 5} HARD=${HARD-1 2 3 4 5}
 # Mass that has left [g] after the gate opened [s], as Lethe's example publishes it for Anand et al. (2008): from 0.25 to 0.75 s.
 PUBLISHED='0.26721 21.084 0.33346 26.292 0.39929 31.4 0.46142 36.69 0.52397 41.939 0.58611 47.209 0.65194 52.499 0.71737 57.809'
 
