@@ -4,7 +4,7 @@
 //! Z = 2 C / N        Z_m = (2 C − N₁) / (N − N₀ − N₁)
 //! ```
 //!
-//! with C contacts between N grains, N₀ of which touch nothing and N₁ one grain: Z_m, without those rattlers, is the
+//! with C contacts between N grains (a rigid clump is one), N₀ of which touch nothing and N₁ one grain: Z_m, without those rattlers, is the
 //! mechanical coordination number of Thornton (2000), Géotechnique 50(1), DOI 10.1680/geot.2000.50.1.43. Contacts are
 //! those of the run if it holds them; walls then count in separate numbers. Otherwise two grains touch if their
 //! distance is less than the sum of their radii, which is exact for every law whose forces end there, and walls are
@@ -14,7 +14,7 @@ use crate::observer::{NO_FRAMES, Observer, Which};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{Contacts, Frame, MeasureError, Partner, Run, RunMessage};
 use geom::Vec3;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Contact numbers of one frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,8 +28,11 @@ pub struct Coordination {
 impl Coordination {
     /// From positions and radii, with the shortest ways of a periodic run.
     pub fn of_frame(run: &Run, frame: &Frame) -> Coordination {
-        let mut of_grains = vec![0; frame.len()];
-        for (a, b) in touching(run, frame) {
+        let (of, count) = numbered(frame);
+        let mut of_grains = vec![0; count];
+        let pairs = touching(run, frame).into_iter().map(|(a, b)| (of[a].min(of[b]), of[a].max(of[b])));
+        let pairs: BTreeSet<(usize, usize)> = pairs.filter(|(a, b)| a != b).collect();
+        for (a, b) in pairs {
             of_grains[a] += 1;
             of_grains[b] += 1;
         }
@@ -38,15 +41,19 @@ impl Coordination {
 
     /// From contacts that the run recorded; several contacts of the same two (faces of a mesh) count once.
     pub fn of_contacts(frame: &Frame, contacts: &Contacts) -> Coordination {
-        let rows: HashMap<u64, usize> = frame.id.iter().enumerate().map(|(row, id)| (*id, row)).collect();
-        let (mut of_grains, mut of_walls) = (vec![0; frame.len()], vec![0; frame.len()]);
+        let (of, count) = numbered(frame);
+        let bodies: HashMap<u64, u64> = frame.id.iter().copied().zip(frame.body()).collect();
+        let body = |id: u64| bodies.get(&id).copied().unwrap_or(id);
+        let rows: HashMap<u64, usize> = frame.body().into_iter().zip(of).collect();
+        let (mut of_grains, mut of_walls) = (vec![0; count], vec![0; count]);
         let mut seen = HashSet::new();
         for contact in contacts.acting() {
+            let i = body(contact.grain);
             let (i, wall, j) = match contact.partner {
-                Partner::Grain(j) => (contact.grain.min(j), false, contact.grain.max(j)),
-                Partner::Wall(j) => (contact.grain, true, j),
+                Partner::Grain(j) => (i.min(body(j)), false, i.max(body(j))),
+                Partner::Wall(j) => (i, true, j),
             };
-            if !seen.insert((i, wall, j)) {
+            if (i == j && !wall) || !seen.insert((i, wall, j)) {
                 continue;
             }
             let add = |counts: &mut Vec<u32>, id: u64| {
@@ -107,7 +114,18 @@ impl Coordination {
     }
 }
 
-/// Pairs of grains (rows of the frame) that overlap.
+/// Number of the grain of each row, and how many there are: a rigid clump is one.
+fn numbered(frame: &Frame) -> (Vec<usize>, usize) {
+    let mut numbers = HashMap::new();
+    let number = |body: u64| {
+        let next = numbers.len();
+        *numbers.entry(body).or_insert(next)
+    };
+    let of = frame.body().into_iter().map(number).collect();
+    (of, numbers.len())
+}
+
+/// Pairs of spheres (rows of the frame) that overlap.
 pub fn touching(run: &Run, frame: &Frame) -> Vec<(usize, usize)> {
     let largest = frame.radius.iter().copied().fold(0.0, f64::max);
     let (mut positions, mut rows) = (frame.position.clone(), (0..frame.len()).collect::<Vec<_>>());
@@ -190,7 +208,8 @@ fn row(frame: &Frame, c: &Coordination) -> Row {
     let (mechanical, rattlers) = c.mechanical();
     let walls = c.of_walls.as_ref().map_or(f64::NAN, |w| w.iter().map(|n| f64::from(*n)).sum());
     let pairs = c.pairs() as f64;
-    vec![frame.time, frame.len() as f64, pairs, walls, c.mean(), c.mean_with_walls(), mechanical, rattlers]
+    let grains = c.of_grains.len() as f64;
+    vec![frame.time, grains, pairs, walls, c.mean(), c.mean_with_walls(), mechanical, rattlers]
 }
 
 impl Observer for ContactNumbers {

@@ -260,7 +260,7 @@ impl Observer for Flow {
 
     fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         match message {
-            RunMessage::Frame(frame) => self.frame(run, &frame, rows)?,
+            RunMessage::Frame(frame) => self.frame(run, frame.grains(), rows)?,
             RunMessage::Crossings(crossings) => {
                 if let Some((outlet, along)) = self.outlet_of(run) {
                     let own = crossings.iter().filter(|p| p.outlet == outlet && self.wanted(&p.position));

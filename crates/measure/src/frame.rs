@@ -29,6 +29,10 @@ pub struct Frame {
     pub mass: Vec<f64>,
     /// All columns of the message.
     pub table: Table,
+    /// Volume of each over that of its ball [–]; empty without clumps.
+    pub(crate) shares: Vec<f64>,
+    /// Its grains, where some of its spheres are clumps.
+    pub(crate) clumped: Option<Box<Frame>>,
 }
 
 impl Frame {
@@ -44,7 +48,7 @@ impl Frame {
         let id = columns.whole(ID)?;
         let material = columns.or_zero(MATERIAL)?.into_iter().map(|m| m as u16).collect::<Vec<_>>();
         let mass = material.iter().zip(&radius).map(|(m, r)| mass(*m, *r, densities)).collect();
-        Ok(Frame { time, id, position, velocity, radius, material, mass, table })
+        Ok(Frame { time, id, position, velocity, radius, material, mass, table, ..Frame::default() })
     }
 
     /// Number of grains.
@@ -69,6 +73,8 @@ impl Frame {
             material: chosen(&self.material, &rows),
             mass: chosen(&self.mass, &rows),
             table: self.table.select(&rows),
+            shares: chosen(&self.shares, &rows),
+            clumped: None,
         }
     }
 

@@ -10,6 +10,7 @@ pub mod ball;
 pub mod bed;
 pub mod bonds;
 mod cells;
+mod clumped;
 pub mod coordination;
 pub mod cylinder;
 pub mod domain;

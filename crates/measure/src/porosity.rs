@@ -1,7 +1,8 @@
 //! Porosity in a shape: the share of its volume that no grain fills.
 //!
 //! Each ball counts with its part in the shape (see [`crate::region`] for the accuracy). The lens that two
-//! overlapping grains share would count twice; lenses whose middle lies in the shape are subtracted.
+//! overlapping grains share would count twice; lenses whose middle lies in the shape are subtracted. The spheres of a rigid clump count with
+//! their shares of its volume ([`crate::clumped`]).
 
 use crate::coordination::touching;
 use crate::observer::OfFrame;
@@ -9,6 +10,7 @@ use crate::region::Region;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{Frame, MeasureError, Run, ball};
 use rayon::prelude::*;
+use std::collections::HashSet;
 
 /// How full a shape is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,19 +35,22 @@ pub fn filling(run: &Run, frame: &Frame, region: &Region) -> Result<Filling, Mea
     let volume = region.room()?;
     let both: Vec<_> =
         frame.position.par_iter().zip(&frame.radius).map(|(p, r)| region.part(p, *r)).collect();
+    let body = frame.body();
     let lens = |(a, b): &(usize, usize)| {
         let way = run.way(&frame.position[*a], &frame.position[*b]);
         let (r, s, d) = (frame.radius[*a], frame.radius[*b], way.norm());
         let middle = frame.position[*a] + way * (0.5 * (d + r - s) / d);
         if d > 0.0 && region.shape.contains(&middle) { ball::lens(d, r, s) } else { 0.0 }
     };
-    let overlaps: f64 = touching(run, frame).iter().map(lens).sum();
+    let apart = |(a, b): &&(usize, usize)| body[*a] != body[*b];
+    let overlaps: f64 = touching(run, frame).iter().filter(apart).map(lens).sum();
+    let inside = body.iter().zip(&both).filter(|(_, p)| p.volume > 0.0);
     Ok(Filling {
-        solid: both.iter().map(|p| p.volume).sum::<f64>() - overlaps,
+        solid: both.iter().enumerate().map(|(row, p)| p.volume * frame.share(row)).sum::<f64>() - overlaps,
         overlaps,
         error: both.iter().map(|p| p.error * p.error).sum::<f64>().sqrt(),
         volume,
-        grains: both.iter().filter(|p| p.volume > 0.0).count(),
+        grains: inside.map(|(body, _)| body).collect::<HashSet<_>>().len(),
     })
 }
 

@@ -88,7 +88,7 @@ impl Grid {
                 let part = ball::in_box(&p, r, &low, &(low + self.step));
                 if part > 0.0 {
                     let cell = &mut self.cells[(z * self.bins[1] + y) * self.bins[0] + x];
-                    cell.add(part, part / ball::volume(r), *mass, r, &v);
+                    cell.add(part * frame.share(row), part / ball::volume(r), *mass, r, &v);
                     let m = mass * part / ball::volume(r);
                     cell.fields.iter_mut().zip(fields).for_each(|(sum, f)| *sum += m * f[row]);
                 }

@@ -112,7 +112,7 @@ impl Observer for Residence {
             && self.between.0 <= frame.time
             && frame.time <= self.between.1
         {
-            self.frame(run, &frame, rows);
+            self.frame(run, frame.grains(), rows);
         }
         Ok(())
     }

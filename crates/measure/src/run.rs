@@ -9,7 +9,8 @@ use record::DomainRecord;
 use record::column::{POSITION, RADIUS, WALL};
 use record::metadata::{MATERIALS, OUTLETS, SCENE};
 use record::topic::{
-    BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES, WALLS,
+    BODIES, BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES,
+    WALLS,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -81,6 +82,8 @@ pub struct Run {
     pub spheres: WallSpheres,
     /// Changes whenever `spheres` does.
     pub spheres_seen: u64,
+    /// A frame with clumps, whose message comes next.
+    waiting: Option<Frame>,
 }
 
 impl Run {
@@ -122,7 +125,18 @@ impl Run {
 
     fn points(&mut self, topic: &str, time: f64, table: Table) -> Result<Option<RunMessage>, MeasureError> {
         Ok(match topic {
-            PARTICLES => Some(RunMessage::Frame(Frame::new(time, table, &self.densities)?)),
+            PARTICLES => {
+                let frame = Frame::new(time, table, &self.densities)?;
+                if frame.has_members() {
+                    self.waiting = Some(frame);
+                    return Ok(None);
+                }
+                Some(RunMessage::Frame(frame))
+            }
+            BODIES => match self.waiting.take().filter(|frame| frame.time == time) {
+                Some(frame) => Some(RunMessage::Frame(frame.with_clumps(&table, &self.densities)?)),
+                None => None,
+            },
             CONTACTS => Some(RunMessage::Contacts(Contacts::new(time, &table)?)),
             CRACKS => Some(RunMessage::Cracks(Crack::list(time, &table)?)),
             BONDS => Some(RunMessage::Bonds(Bonds::new(time, &table)?)),

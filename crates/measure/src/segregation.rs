@@ -146,6 +146,7 @@ impl OfFrame for Segregation {
     }
 
     fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
+        let frame = frame.grains();
         self.most = self.most.max(frame.len());
         if frame.len() < 2 {
             return Ok(Vec::new());

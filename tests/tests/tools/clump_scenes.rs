@@ -328,3 +328,30 @@ fn clumps_of_a_run_are_refused_where_they_would_be_others() {
     let done = tool(folder.path(), "stage-split", &split);
     assert!(done.code == 1 && done.stderr.contains("only dem-run places these"), "{}", done.stderr);
 }
+
+/// Six cubes fall through a plane: each is one grain with the mass of a cube, not with that of its spheres.
+#[test]
+fn a_clump_is_measured_as_one_grain_with_its_own_mass() {
+    let (head, _) = SCENE.split_once("[[clump]]\nname = \"pair\"").expect("the pair");
+    let fill = "[[fill]]\nclump = \"cube\"\nshape = \"box:-0.2,-0.2,0.1,0.2,0.2,0.3\"\ncount = 6\n";
+    let folder = folder(&format!("{head}{fill}"));
+    let path = folder.path();
+    succeed(path, "dem-run", &["s.toml", "-o", "run.mcap"]);
+    let numbers = |options: &[&str]| {
+        let words = [&["run.mcap", "--json", "-q"][..], options].concat();
+        let report: serde_json::Value =
+            serde_json::from_slice(&succeed(path, "dem-measure", &words).stdout).expect("JSON");
+        move |key: &str| report["summary"][key]["value"].as_f64().unwrap_or_else(|| panic!("{key}: {report}"))
+    };
+    let cube = 0.02_f64.powi(3);
+    let flow = numbers(&["--flow", "0,0,0,0,0,-1"]);
+    assert_eq!(flow("forward"), 6.0);
+    assert!((flow("mass") / (6.0 * 2500.0 * cube) - 1.0).abs() < 1e-6, "{} kg", flow("mass"));
+    let room = "box:-0.3,-0.3,0,0.3,0.3,0.4";
+    let porosity = numbers(&["--porosity", room, "--time", "0"]);
+    let solid = porosity("solid_fraction") * 0.6 * 0.6 * 0.4;
+    assert!((solid / (6.0 * cube) - 1.0).abs() < 1e-6, "{solid} m³");
+    assert_eq!(porosity("grains"), 6.0);
+    let contacts = numbers(&["--contacts", "--time", "0"]);
+    assert_eq!(contacts("coordination"), 0.0, "spheres of one clump touch nothing");
+}

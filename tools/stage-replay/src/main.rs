@@ -22,7 +22,8 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
     let (done, out) = replay(parts, &what, out, written)?;
     out.commit()?;
     if done.particles == 0 {
-        cli::warn("no grain passed the storage plane");
+        let part = if what.from.is_some() { " in the part from --from on" } else { "" };
+        cli::warn(&format!("no grain passed the storage plane{part}"));
     }
     if done.near > 0 {
         let cure = match done.ahead {

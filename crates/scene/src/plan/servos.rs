@@ -4,7 +4,7 @@ use super::builder::PlanBuilder;
 use crate::error::{Result, nearest};
 use crate::input::{LOAD_COLUMNS, read_load};
 use crate::keys::{Servo, Side};
-use dem::setup::{self, Length, Target};
+use dem::setup::{self, Length, Target, WallShape};
 use geom::Vec3;
 
 /// A servo whose area lies between walls that are known by name.
@@ -15,6 +15,9 @@ pub(super) struct ServoArea {
     pub key: String,
     pub sides: [Side; 2],
 }
+
+/// Two directions are the same from this cosine on: within 2.6°.
+const PARALLEL: f64 = 0.999;
 
 impl PlanBuilder<'_> {
     /// The servo of the wall that is added next.
@@ -63,9 +66,38 @@ impl PlanBuilder<'_> {
         for ServoArea { wall, key, sides } in std::mem::take(&mut self.servo_areas) {
             let [one, other] = &sides;
             let area = [self.side(&key, one)?, self.side(&key, other)?];
+            self.are_sides(wall, &key, &sides, &area)?;
             if let Some(servo) = &mut self.walls[wall].servo {
                 servo.area = Some(area);
             }
+        }
+        Ok(())
+    }
+
+    /// Refuses sides that do not lie across the servo's direction, or are one and the same.
+    fn are_sides(&self, wall: usize, key: &str, sides: &[Side; 2], area: &[Length; 2]) -> Result<()> {
+        let normal = |length: &Length| match length {
+            Length::Between(one, _) => match &self.walls[*one].shape {
+                WallShape::Plane(plane) => Some(plane.normal),
+                _ => None,
+            },
+            Length::Fixed(_) => None,
+        };
+        let (normals, direction) =
+            (area.each_ref().map(normal), self.walls[wall].servo.as_ref().map(|s| s.direction));
+        let cure = "name the walls that bound the servo's wall on its two sides";
+        for (side, normal) in sides.iter().zip(normals) {
+            let along = normal.zip(direction).is_some_and(|(n, d)| n.dot(&d).abs() > PARALLEL);
+            if let (true, Side::Walls([a, b])) = (along, side) {
+                let why = "lie apart along the servo's direction, and not along a side of its wall";
+                return Err(self.check.wrong(key, format!("[\"{a}\", \"{b}\"]"), why, cure));
+            }
+        }
+        if let ([Some(one), Some(other)], [Side::Walls([a, b]), _]) = (normals, sides)
+            && one.dot(&other).abs() > PARALLEL
+        {
+            let why = "give the length of one side twice";
+            return Err(self.check.wrong(key, format!("[\"{a}\", \"{b}\"] and the other two"), why, cure));
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::builder::PlanBuilder;
 use dem::effects::{Slot, active};
-use dem::setup::{ContactLaw, WallShape};
+use dem::setup::{ContactLaw, Particle, WallShape};
 use geom::{Vec3, grid};
 
 /// Overlap at the start, over the smaller radius, above which a warning is given [–].
@@ -25,6 +25,7 @@ impl PlanBuilder<'_> {
         self.lost_spins(contacts);
         self.forces_of_servos();
         self.late();
+        self.bonds_to_fixed();
         let most = self.keys().guards.overlap.unwrap_or(dem::setup::Guards::default().overlap);
         // Deeper overlaps are refused.
         let deep = self.deepest().filter(|deep| deep.share > DEEP && deep.share <= most);
@@ -47,6 +48,46 @@ impl PlanBuilder<'_> {
         );
         let warning = self.check.wrong("output.wall_forces", "false", &why, "take it out").to_string();
         self.warnings.push(warning);
+    }
+
+    /// Fixed grains are walls: what a bond would hold to them falls.
+    fn bonds_to_fixed(&mut self) {
+        let bonds =
+            super::bonds::resolve(&self.check, &self.keys().bond, &self.materials).unwrap_or_default();
+        let fixed = self.walls.iter().filter(|wall| wall.name.starts_with("particles."));
+        let spheres: Vec<(Vec3, f64, u16, &str)> = fixed
+            .filter_map(|wall| match &wall.shape {
+                WallShape::Spheres(all) => {
+                    Some(all.iter().map(|s| (s.0, s.1, wall.material, wall.name.as_str())))
+                }
+                _ => None,
+            })
+            .flatten()
+            .collect();
+        let places: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
+        let largest =
+            spheres.iter().map(|s| s.1).chain(self.particles.iter().map(|p| p.radius)).fold(0.0, f64::max);
+        if bonds.is_empty() || places.is_empty() {
+            return;
+        }
+        let grid = grid::Grid::new(&places, 2.0 * largest);
+        let joined = |p: &Particle, s: &(Vec3, f64, u16, &str)| {
+            let gap = (s.0 - p.position).norm() - s.1 - p.radius;
+            let of = (p.material.min(s.2), p.material.max(s.2));
+            bonds.iter().any(|bond| bond.between == of && gap <= bond.gap)
+        };
+        let reach = |p: &Particle| p.radius + largest + bonds.iter().map(|b| b.gap).fold(0.0, f64::max);
+        let near = |p: &Particle| {
+            grid.within(&places, p.position, reach(p)).find(|k| joined(p, &spheres[*k as usize]))
+        };
+        let found = self.particles.iter().find_map(|p| Some((p.id, spheres[near(p)? as usize].3)));
+        if let Some((id, wall)) = found {
+            let warning = format!(
+                "grain {id} lies beside a grain of {wall} at the distance of a [[bond]], but fixed grains are walls, to which no bond holds: take \
+                 'fixed' out, and make these grains heavy, or press them between two walls"
+            );
+            self.warnings.push(warning);
+        }
     }
 
     /// What would begin when the run has ended.

@@ -114,3 +114,77 @@ fn forces_that_a_servo_writes_cannot_be_left_out() {
     );
     is_fine(&scene("true"), ONE);
 }
+
+const BONDED: &str = r#"[time]
+until = 0.1
+[[material]]
+name = "rock"
+density = 2000
+young = 1e7
+poisson = 0.25
+[[contact]]
+between = ["rock", "rock"]
+restitution = 0.5
+[[particles]]
+source = "p.csv"
+material = "rock"
+[[particles]]
+source = "held.csv"
+material = "rock"
+fixed = true
+[[bond]]
+between = ["rock", "rock"]
+gap = 1e-4
+young = 1e7
+poisson = 0.25
+"#;
+
+/// A row of grains of which the first is fixed would fall: no bond holds to a wall.
+#[test]
+fn a_bond_that_fixed_grains_cannot_have_is_told() {
+    let folder = tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("s.toml", BONDED);
+    write("p.csv", "x,y,z,radius\n0.02,0,0,0.01\n0.04,0,0,0.01\n");
+    for (held, told) in [(0.0, true), (-0.001, false)] {
+        write("held.csv", &format!("x,y,z,radius\n{held},0,0,0.01\n"));
+        let done = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        assert_eq!(done.stderr.contains("to which no bond holds"), told, "{}", done.stderr);
+    }
+}
+
+const SERVO: &str = r#"[time]
+until = 0.1
+[[material]]
+name = "rock"
+density = 2000
+young = 1e7
+poisson = 0.25
+[[contact]]
+between = ["rock", "rock"]
+restitution = 0.5
+[[particles]]
+source = "p.csv"
+material = "rock"
+[[wall]]
+name = "box"
+box = [-0.1, -0.1, 0, 0.1, 0.1, 0.2]
+faces = ["x-", "x+", "y-", "y+", "z-"]
+material = "rock"
+[[wall]]
+name = "lid"
+plane = "0,0,0.2,0,0,-1"
+material = "rock"
+servo = { direction = [0, 0, -1], stress = 100, area_between = SIDES, speed_limit = 0.1 }
+"#;
+
+#[test]
+fn sides_of_a_servo_lie_across_its_direction_and_are_two() {
+    let scene = |sides: &str| SERVO.replace("SIDES", sides);
+    is_fine(&scene("[[\"box x-\", \"box x+\"], [\"box y-\", \"box y+\"]]"), ONE);
+    let along = ["area_between = [\"box z-\", \"lid\"]: lie apart along the servo's direction"];
+    refuses(&scene("[[\"box x-\", \"box x+\"], [\"box z-\", \"lid\"]]"), ONE, &along);
+    let twice = ["give the length of one side twice"];
+    refuses(&scene("[[\"box x-\", \"box x+\"], [\"box x+\", \"box x-\"]]"), ONE, &twice);
+}
