@@ -84,8 +84,9 @@ pub fn warnings(judged: &Judged) -> Vec<String> {
         lines.push(format!("step '{}': the chains have not mixed (ratio {:.2}): the posterior may have several peaks: look at the samples", s.step, s.chains));
     }
     for f in judged.findings.iter().filter(|f| f.determined) {
-        let near = |a: f64, b: f64| (a - b).abs() <= 0.02 * (f.prior[1] - f.prior[0]).abs();
-        if near(f.low, f.prior[0]) || near(f.high, f.prior[1]) {
+        // Of bounds alone the interval of the prior ends before them: what is pressed against a bound lies beyond it.
+        let near = 0.02 * (f.prior[1] - f.prior[0]);
+        if f.low <= f.prior[0] + near || f.high >= f.prior[1] - near {
             lines.push(format!("{}: its interval reaches the end of its prior: the data may want values beyond: widen its bounds", f.parameter));
         }
     }

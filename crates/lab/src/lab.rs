@@ -8,7 +8,7 @@ use crate::request::{Request, Specimen};
 use crate::sample::Sample;
 use crate::series::Curve;
 use crate::summary::{self, Summary};
-use crate::warnings::{not_at_rest, not_held};
+use crate::warnings::{not_at_rest, not_held, still_rises};
 use geom::Vec3;
 use rayon::prelude::*;
 use serde_json::Value as Json;
@@ -262,6 +262,7 @@ impl Lab {
         let tables = chain.tables(&self.recipe.tables(&of, &prepared))?;
         let curve = self.recipe.curve(&of, &prepared, &tables)?;
         let values = self.recipe.values(&of, &curve);
+        warnings.extend(still_rises(&curve));
         warnings.extend(self.recipe.warnings(&of, &curve));
         Ok(Outcome::Tested { curve, values, warnings })
     }

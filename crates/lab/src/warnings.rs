@@ -4,10 +4,14 @@ use crate::chain::Chain;
 use crate::error::Result;
 use crate::lab::Lab;
 use crate::recipes::{Loading, Part};
+use crate::series::{Curve, smoothed};
 use serde_json::Value as Json;
 
 /// Largest speed of a prepared specimen over √(p/ρ) [–].
 const STILL: f64 = 2e-3;
+
+/// Rise over three tenths of a curve, from tenth to tenth, that is more than scatter [–].
+const RISE: f64 = 0.05;
 
 impl Lab {
     /// A warning where the specimen still moves when it is prepared: root mean square speed against √(p/ρ), which is how inertial numbers count.
@@ -37,6 +41,27 @@ impl Lab {
     }
 }
 
+/// A warning where the stress still rises when the test ends: its peak is the end of the test, and nothing is residual.
+pub(crate) fn still_rises(curve: &Curve) -> Option<String> {
+    let name = ["deviator_stress", "shear_stress"].into_iter().find(|name| !curve.column(name).is_empty())?;
+    let values = smoothed(curve.column(name));
+    let part = values.len() / 10;
+    let mean = |from_end: usize| {
+        let end = values.len() - from_end * part;
+        values[end - part..end].iter().sum::<f64>() / part as f64
+    };
+    let [last, before, first] = [0, 1, 2].map(mean);
+    let rises = part > 0 && last > before && before > first && last > (1.0 + RISE) * first;
+    rises.then(|| {
+        format!(
+            "the {} still rises when the test ends, by {:.0} % over its last parts: what is called peak is the end of the test, and residual is none: give a larger \
+             --strain",
+            name.replace('_', " "),
+            100.0 * (last / first - 1.0)
+        )
+    })
+}
+
 /// A warning where the preparation has ended before the grains rest.
 pub(crate) fn not_at_rest(report: &Json) -> Option<String> {
     let time = report["time"].as_f64().unwrap_or(f64::NAN);
@@ -60,4 +85,24 @@ pub(crate) fn not_held(report: &Json) -> Vec<String> {
         ))
     };
     servos.iter().filter_map(off).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_test_that_ends_before_its_peak_is_told() {
+        let curve = |stress: fn(f64) -> f64| {
+            Curve::default().with(
+                "shear_stress",
+                "Pa",
+                (0..100).map(|k| stress(f64::from(k) / 100.0)).collect(),
+            )
+        };
+        assert!(still_rises(&curve(|x| 1e3 * x)).expect("it rises").contains("the shear stress still rises"));
+        assert_eq!(still_rises(&curve(|x| 1e3 * (20.0 * x).tanh())), None);
+        assert_eq!(still_rises(&curve(|x| 1e3 * x * (1.4 - x))), None, "past its peak");
+        assert_eq!(still_rises(&Curve::default()), None);
+    }
 }

@@ -4,6 +4,7 @@ use crate::crossing;
 use geom::mesh::{Inside, TriMesh, closest_point};
 use geom::moments::BodyError;
 use geom::{Boxes, Moments, Shown, Vec3};
+use remesh::pieces::pieces;
 use thiserror::Error;
 
 /// Longer than this [m] a stone is taken for one in millimetres.
@@ -24,6 +25,8 @@ pub enum StoneError {
          or a mesh editor", Shown(at[0]), Shown(at[1]), Shown(at[2])
     )]
     Crossing { first: usize, second: usize, pairs: usize, at: [f64; 3] },
+    #[error("mesh is {0} bodies apart from each other, and a stone is one: give each in a file of its own")]
+    Bodies(usize),
     #[error("mesh has {0} faces, more than {MOST_FACES}: thin it with stone-clean --faces 5000")]
     Faces(usize),
 }
@@ -70,6 +73,11 @@ impl Stone {
                 pairs: crossings.len(),
                 at: ((a + b + c) / 3.0).into(),
             });
+        }
+        // A cavity is a piece with a volume below zero.
+        let bodies = pieces(&mesh).iter().filter(|piece| piece.volume() > 0.0).count();
+        if bodies > 1 {
+            return Err(StoneError::Bodies(bodies));
         }
         let inside = Inside::new(&mesh).map_err(BodyError::from)?;
         Ok(Stone { mesh, moments, inside, faces })
@@ -139,6 +147,18 @@ pub(crate) mod tests {
         millimetres.scale(1000.0);
         assert!(refused(&millimetres).contains("100 m long") && refused(&millimetres).contains("--units mm"));
         assert!(Stone::new(&millimetres, true).is_ok());
+        // Two boxes beside each other are two stones; one in the other is a cavity.
+        let with = |other: TriMesh| {
+            let mut both = good.clone();
+            both.faces.extend(other.faces.iter().map(|f| f.map(|v| v + 8)));
+            both.vertices.extend(other.vertices);
+            both
+        };
+        let apart = with(cuboid(Vec3::repeat(0.2), Vec3::repeat(0.3)));
+        assert!(refused(&apart).contains("2 bodies apart from each other"), "{}", refused(&apart));
+        let mut cavity = cuboid(Vec3::repeat(0.03), Vec3::repeat(0.07));
+        cavity.faces.iter_mut().for_each(|face| face.swap(1, 2));
+        assert!(Stone::new(&with(cavity), false).is_ok());
         // Two boxes that go through each other, as one mesh.
         let mut crossed = good.clone();
         let other = cuboid(Vec3::repeat(0.05), Vec3::repeat(0.2));
