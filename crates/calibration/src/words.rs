@@ -1,5 +1,6 @@
 //! Findings in plain words, as a table, and as CSV.
 
+use crate::fit::is_misfit;
 use crate::fit::next::Next;
 use crate::judge::{Finding, Judged, Pair};
 use crate::recipe::shown;
@@ -78,6 +79,14 @@ pub fn warnings(judged: &Judged) -> Vec<String> {
             Shown(s.misfit),
             s.free,
             amount(s.widened, "")
+        ));
+    }
+    for s in judged.steps.iter().filter(|s| s.widened == 1.0 && is_misfit(s.misfit, s.free)) {
+        lines.push(format!(
+            "step '{}': the priors hold the parameters away from values that fit the data (square of misfit {}, expected {}): widen the priors that you are not sure of",
+            s.step,
+            Shown(s.misfit),
+            s.free
         ));
     }
     for s in judged.unmixed() {

@@ -23,6 +23,16 @@ pub struct Class {
     pub stones: Vec<usize>,
 }
 
+impl Class {
+    /// Whether a stone may belong to both.
+    fn shares_sizes_with(&self, other: &Class) -> bool {
+        match (self.sieves, other.sieves) {
+            (Some((low, high)), Some((from, to))) => low < to && from < high || (low, high) == (from, to),
+            _ => self.number == other.number,
+        }
+    }
+}
+
 /// Why text is not a grading, or does not fit a library.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)]
@@ -92,6 +102,9 @@ pub fn read(text: &str, library: &Library) -> Result<Vec<Class>, GradingError> {
                 Class { number, share, sieves: None, stones }
             }
         };
+        if classes.iter().any(|other| class.shares_sizes_with(other)) {
+            return Err(wrong("overlaps a class above: each size belongs to one class"));
+        }
         classes.push(class);
     }
     let sum: f64 = classes.iter().map(|c| c.share).sum();
@@ -140,6 +153,8 @@ mod tests {
             ("from,to,share\n0.02,0.01,1\n", "ascend"),
             ("from,to,share\n0.01,0.02\n", "as many numbers"),
             ("from,to,share\n0.01,nan,1\n", "give numbers"),
+            ("from,to,share\n0.01,0.012,0.5\n0.011,0.015,0.5\n", "0.011,0.015,0.5': overlaps a class above"),
+            ("class,share\n1,0.5\n1,0.5\n", "overlaps a class above"),
             ("class,share\n1,-1\n", "give numbers"),
         ] {
             let words = read(text, &library).unwrap_err().to_string();

@@ -55,7 +55,7 @@ pub struct Args {
     /// The setting in use of a key that the scene does not contain, such as a {KEY} (repeat)
     #[arg(long, value_name = "KEY=V", help_heading = "Judging")]
     pub in_use: Vec<String>,
-    /// Recommend the cheapest setting within this error: a share (1%), or in the unit of the measure (default 1%)
+    /// Recommend the cheapest setting within this error: a share (1%), or a number in its unit where the exact value is 0 (default 1%)
     #[arg(long = "for", value_name = "ERROR", value_parser = wanted, allow_hyphen_values = true, help_heading = "Judging")]
     pub wanted: Option<Wanted>,
     /// How a profile becomes one number

@@ -67,6 +67,11 @@ fn belongs(recipe: &Recipe, step: &Step, held: &[f64], trial: &Trial) -> bool {
         && (0..z.len()).all(|k| step.fit.contains(&k) || (z[k] - held[k]).abs() < 1e-9)
 }
 
+/// Whether a square of a misfit is more than chance makes of so many degrees of freedom: three standard deviations of χ².
+pub fn is_misfit(square: f64, free: f64) -> bool {
+    square > free + 3.0 * (2.0 * free).sqrt()
+}
+
 impl<'a> Fitted<'a> {
     /// Learns from the trials of a step; `before` are the lengths of the fit before.
     pub fn learn(
@@ -145,10 +150,12 @@ impl<'a> Fitted<'a> {
         (self.emulators.iter().map(|e| e.misfit(z)).sum(), free)
     }
 
-    /// Widens the data's deviations if no point fits within them: by the ratio of Birge (1932), doi:10.1103/PhysRev.40.207.
+    /// Widens the data's deviations if no point fits within them: by the ratio of Birge (1932), doi:10.1103/PhysRev.40.207. The best trial
+    /// counts beside the best of the posterior, which a narrow prior may hold away from what fits.
     pub fn inflate(&mut self, best: &[f64]) {
-        let (square, free) = self.misfit(best);
-        if square > free + 3.0 * (2.0 * free).sqrt() {
+        let (at_best, free) = self.misfit(best);
+        let square = self.known.first().map_or(at_best, |z| at_best.min(self.misfit(z).0));
+        if is_misfit(square, free) {
             self.inflation = square / free;
         }
     }
