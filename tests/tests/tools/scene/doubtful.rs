@@ -115,7 +115,8 @@ fn forces_that_a_servo_writes_cannot_be_left_out() {
     is_fine(&scene("true"), ONE);
 }
 
-const BONDED: &str = r#"[time]
+/// Rock of a file.
+const ROCK: &str = r#"[time]
 until = 0.1
 [[material]]
 name = "rock"
@@ -128,7 +129,9 @@ restitution = 0.5
 [[particles]]
 source = "p.csv"
 material = "rock"
-[[particles]]
+"#;
+
+const HELD: &str = r#"[[particles]]
 source = "held.csv"
 material = "rock"
 fixed = true
@@ -144,7 +147,7 @@ poisson = 0.25
 fn a_bond_that_fixed_grains_cannot_have_is_told() {
     let folder = tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
-    write("s.toml", BONDED);
+    write("s.toml", &[ROCK, HELD].concat());
     write("p.csv", "x,y,z,radius\n0.02,0,0,0.01\n0.04,0,0,0.01\n");
     for (held, told) in [(0.0, true), (-0.001, false)] {
         write("held.csv", &format!("x,y,z,radius\n{held},0,0,0.01\n"));
@@ -154,20 +157,7 @@ fn a_bond_that_fixed_grains_cannot_have_is_told() {
     }
 }
 
-const SERVO: &str = r#"[time]
-until = 0.1
-[[material]]
-name = "rock"
-density = 2000
-young = 1e7
-poisson = 0.25
-[[contact]]
-between = ["rock", "rock"]
-restitution = 0.5
-[[particles]]
-source = "p.csv"
-material = "rock"
-[[wall]]
+const LID: &str = r#"[[wall]]
 name = "box"
 box = [-0.1, -0.1, 0, 0.1, 0.1, 0.2]
 faces = ["x-", "x+", "y-", "y+", "z-"]
@@ -181,7 +171,7 @@ servo = { direction = [0, 0, -1], stress = 100, area_between = SIDES, speed_limi
 
 #[test]
 fn sides_of_a_servo_lie_across_its_direction_and_are_two() {
-    let scene = |sides: &str| SERVO.replace("SIDES", sides);
+    let scene = |sides: &str| [ROCK, &LID.replace("SIDES", sides)].concat();
     is_fine(&scene("[[\"box x-\", \"box x+\"], [\"box y-\", \"box y+\"]]"), ONE);
     let along = ["area_between = [\"box z-\", \"lid\"]: lie apart along the servo's direction"];
     refuses(&scene("[[\"box x-\", \"box x+\"], [\"box z-\", \"lid\"]]"), ONE, &along);
