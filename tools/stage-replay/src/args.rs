@@ -107,6 +107,18 @@ impl Args {
             let why = "the copies would overlap: give --copy-shift X,Y,Z or --copy-delay S";
             return Err(usage(format!("--copies {}: {why}", self.copies)));
         }
+        for (option, given) in
+            [("--copy-shift", self.copy_shift.is_some()), ("--copy-delay", self.copy_delay.is_some())]
+        {
+            if self.copies == 1 && given {
+                return Err(usage(format!(
+                    "{option}: one copy is the record itself: give --copies 2 or more"
+                )));
+            }
+        }
+        if self.repeat == 1 && self.period.is_some() {
+            return Err(usage("--period: the record is replayed once: give --repeat 2 or more"));
+        }
         if let (Some(ahead), Keep::Generation) = (self.ahead, self.intervals) {
             let why =
                 "changes nothing with --intervals generation, where every grain starts when it was recorded";

@@ -96,6 +96,14 @@ const REFUSED: &[(&str, &str)] = &[
         "--hold-out: 2 is more than the 1 photographs that have a mask: give a smaller number",
     ),
     (
+        "stage-replay up.mcap --copies 1 --copy-delay 0.01 -o i.mcap",
+        "--copy-delay: one copy is the record itself: give --copies 2 or more",
+    ),
+    (
+        "stage-replay up.mcap --repeat 1 --period 0.1 -o i.mcap",
+        "--period: the record is replayed once: give --repeat 2 or more",
+    ),
+    (
         "stone-library pebble.ply -o rocks --seed 3",
         "--seed: a library without --variants leaves nothing to chance",
     ),
