@@ -1,19 +1,18 @@
 //! Rigid clumps of a frame: each is one grain, and its spheres share its mass.
 //!
 //! ```text
-//! share of sphere i = (m_i / M) / (V_i ρ_i / M) = m_i / (V_i ρ_i)        m_i = M r_i³ / Σ r³, of the clump's mass M and spheres
+//! m_i = M r_i³ / Σ r³        share_i = m_i / (ρ_i V_i)        M: mass of the clump, V_i: volume of the ball i
 //! ```
 //!
 //! So sums over spheres give the mass of the clump, whose spheres overlap and leave a part of it uncovered.
 
+use crate::MeasureError;
 use crate::frame::{Frame, mass};
 use crate::table::Columns;
-use crate::{MeasureError, ball};
 use geom::Vec3;
 use record::column::{BODY, ID, MASS, POSITION, VELOCITY};
 use record::topic::{BODIES, PARTICLES};
 use std::collections::HashMap;
-use std::f64::consts::PI;
 use stream::Table;
 
 /// Rigid clumps, in the order of their message, and the spheres of them that were found.
@@ -67,10 +66,9 @@ impl Frame {
             id,
         };
         let places: HashMap<u64, usize> = clumps.id.iter().enumerate().map(|(k, id)| (*id, k)).collect();
-        let of: Vec<Option<usize>> = self.body().iter().map(|body| places.get(body).copied()).collect();
-        if let Some(row) =
-            (0..self.len()).find(|row| of[*row].is_none() && self.body()[*row] != self.id[*row])
-        {
+        let bodies = self.body();
+        let of: Vec<Option<usize>> = bodies.iter().map(|body| places.get(body).copied()).collect();
+        if let Some(row) = (0..self.len()).find(|&row| of[row].is_none() && bodies[row] != self.id[row]) {
             let why = format!("the clump of sphere {} is not in {BODIES}", self.id[row]);
             return Err(MeasureError::Message { topic: PARTICLES.to_owned(), time: self.time, why });
         }
@@ -86,11 +84,10 @@ impl Frame {
         let mut grains = self.only(|row| of[row].is_none());
         for k in 0..count {
             let Some(row) = clumps.first[k] else { continue };
-            let volume = self.share(row) * ball::volume(1.0) * clumps.cubes[k];
             grains.id.push(clumps.id[k]);
             grains.position.push(clumps.position[k]);
             grains.velocity.push(clumps.velocity[k]);
-            grains.radius.push((0.75 * volume / PI).cbrt());
+            grains.radius.push((self.share(row) * clumps.cubes[k]).cbrt());
             grains.material.push(self.material[row]);
             grains.mass.push(clumps.mass[k]);
         }
@@ -102,6 +99,7 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ball;
     use stream::Values;
 
     /// A clump of two spheres that overlap, and a ball beside it.

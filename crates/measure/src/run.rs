@@ -133,10 +133,11 @@ impl Run {
                 }
                 Some(RunMessage::Frame(frame))
             }
-            BODIES => match self.waiting.take().filter(|frame| frame.time == time) {
-                Some(frame) => Some(RunMessage::Frame(frame.with_clumps(&table, &self.densities)?)),
-                None => None,
-            },
+            BODIES => {
+                let frame = self.waiting.take().filter(|frame| frame.time == time);
+                let whole = frame.map(|frame| frame.with_clumps(&table, &self.densities)).transpose()?;
+                whole.map(RunMessage::Frame)
+            }
             CONTACTS => Some(RunMessage::Contacts(Contacts::new(time, &table)?)),
             CRACKS => Some(RunMessage::Cracks(Crack::list(time, &table)?)),
             BONDS => Some(RunMessage::Bonds(Bonds::new(time, &table)?)),

@@ -64,12 +64,12 @@ impl PlanBuilder<'_> {
             })
             .flatten()
             .collect();
+        if bonds.is_empty() || spheres.is_empty() {
+            return;
+        }
         let places: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
         let largest =
             spheres.iter().map(|s| s.1).chain(self.particles.iter().map(|p| p.radius)).fold(0.0, f64::max);
-        if bonds.is_empty() || places.is_empty() {
-            return;
-        }
         let grid = grid::Grid::new(&places, 2.0 * largest);
         let joined = |p: &Particle, s: &(Vec3, f64, u16, &str)| {
             let gap = (s.0 - p.position).norm() - s.1 - p.radius;
