@@ -27,7 +27,9 @@ logged() {
 export -f logged
 
 # Two at a time: the last tests of a program leave cores idle, a quarter of the time on two of them.
-programs | xargs -0 -P 2 -n 2 bash -c 'cd "$0" && logged "$(basename "$1")" "$1"'
+programs > "$logs/programs"
+[ -s "$logs/programs" ] || { echo "cargo names no test program" >&2; exit 1; }
+xargs -0 -P 2 -n 2 bash -c 'cd "$0" && logged "$(basename "$1")" "$1"' < "$logs/programs"
 logged doc cargo test --doc --workspace --locked --no-fail-fast
 sort -u "$GRAINPIPE_SKIPS"
 skipped=$(sort -u "$GRAINPIPE_SKIPS" | wc -l)
