@@ -1,20 +1,20 @@
 //! Poisson-disk subsampling: no two kept points nearer than the spacing r, no other point farther than r from a kept one.
 //!
 //! ```text
-//! deg(i) = number of input points nearer than r to point i       (counted up to 48)
-//! keep i when no point nearer than r has been kept; in the order of (deg(i), hash(seed, i))
+//! deg(i) = number of open points nearer than r to point i        (counted up to 48)
+//! keep open points in the order of (deg(i), hash(seed, i)); a kept point covers those nearer than r: they are open no longer
 //! ```
 //!
 //! Points with few rivals come first, in random order among equals. On a cloud that is hardly denser than the sample, purely random order
-//! (Cook 1986, doi:10.1145/8927.8928; Corsini et al. 2012, doi:10.1109/TVCG.2012.34) wastes space. Taking points with few
-//! rivals first (the minimum-degree rule for independent sets; Halldórsson & Radhakrishnan 1997, doi:10.1007/BF02523693)
-//! needs a larger r for the same count and leaves more even distances. Where the input is
-//! dense the count is capped, and the order is purely random.
+//! (Cook 1986, doi:10.1145/8927.8928; Corsini et al. 2012, doi:10.1109/TVCG.2012.34) wastes space. Taking points with few rivals first (the
+//! minimum-degree rule for independent sets; Halldórsson & Radhakrishnan 1997, doi:10.1007/BF02523693) needs a larger r for the same count
+//! and leaves more even distances, above all if the rivals that are left are counted again and again: the next point is then taken beside
+//! those that are kept, as close as it may be. Where very many are open the count is capped, and the order is purely random.
 //!
 //! The result is the same for any number of threads. The points lie in blocks 16 cells wide (a cell is r or somewhat
 //! more). Blocks have eight colours, and blocks of one colour are too far apart to affect each other. The colours are processed one after
-//! another, the blocks of a colour at the same time. Of the points of a block the first quarter in the order is sorted and thrown, then the
-//! first quarter of those still open, and so on: most points are covered before their rank is needed.
+//! another, the blocks of a colour at the same time. Of the points of a block the first sixteenth in the order is thrown, then rivals are
+//! counted again and the first sixteenth of those still open is thrown, and so on.
 
 use crate::cells::{Cells, apart};
 use multiversion::multiversion;
@@ -26,14 +26,14 @@ use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 const RIVALS: u64 = 48;
 /// Width of a block in cells; must be more than 2.
 const BLOCK: i64 = 16;
-/// Slots are ranked in parts of this many.
-const PART: usize = 4096;
+/// One part of so many of the open points is thrown before their rivals are counted again.
+const PARTS: usize = 16;
+/// At least so many are thrown at once.
+const FEW: usize = 32;
 /// Points that are compared at once.
 const LANES: usize = 8;
 /// Stands for no point.
 const NO_POINT: f64 = 1e150;
-/// So few are sorted at once.
-const FEW: usize = 64;
 
 const OPEN: u8 = 0;
 const KEPT: u8 = 1;
@@ -45,18 +45,9 @@ pub(crate) fn poisson(cells: &Cells, spacing: f64, seed: u64, forced: Option<&[b
     if let Some(forced) = forced {
         keep_forced(cells, spacing, forced, &state);
     }
-    let mut rank = vec![0; cells.len()];
-    rank.par_chunks_mut(PART).enumerate().for_each(|(part, rank)| {
-        let first = part * PART;
-        ranks(cells, first as u32, spacing, rank);
-        for (rank, &index) in rank.iter_mut().zip(&cells.order()[first..]) {
-            *rank = *rank << 56 | chance(seed, index.into()) >> 8;
-        }
-    });
     for colour in colours(cells) {
-        colour.into_par_iter().for_each(|block| throw(cells, spacing, &block, &rank, &state));
+        colour.into_par_iter().for_each(|block| throw(cells, spacing, seed, &block, &state));
     }
-    drop(rank);
     kept(cells, &state)
 }
 
@@ -67,43 +58,6 @@ fn kept(cells: &Cells, state: &[AtomicU8]) -> Vec<u32> {
         is_kept[index as usize] = state.load(Relaxed) == KEPT;
     }
     (0..).zip(is_kept).filter(|(_, is_kept)| *is_kept).map(|(index, _)| index).collect()
-}
-
-/// Number of points nearer than `spacing` [m] to each slot from `first` on. The points around a cell are laid side by side once for all
-/// points of the cell.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn ranks(cells: &Cells, first: u32, spacing: f64, rivals: &mut [u64]) {
-    let [mut xs, mut ys, mut zs]: [Vec<f64>; 3] = Default::default();
-    let mut around = u32::MAX;
-    for (slot, rivals) in (first..).zip(rivals) {
-        if cells.cell(slot) != around {
-            around = cells.cell(slot);
-            [&mut xs, &mut ys, &mut zs].into_iter().for_each(Vec::clear);
-            let mine = |run: &Range<usize>| run.contains(&(slot as usize));
-            // Its own row first: it has most of the near ones.
-            for run in cells.runs(slot).filter(mine).chain(cells.runs(slot).filter(|run| !mine(run))) {
-                let points = &cells.points[run];
-                xs.extend(points.iter().map(|p| p.x));
-                ys.extend(points.iter().map(|p| p.y));
-                zs.extend(points.iter().map(|p| p.z));
-            }
-            let whole = xs.len().next_multiple_of(LANES);
-            [&mut xs, &mut ys, &mut zs].into_iter().for_each(|column| column.resize(whole, NO_POINT));
-        }
-        let p = cells.points[slot as usize];
-        let mut count = [0u64; LANES];
-        let rows = xs.chunks_exact(LANES).zip(ys.chunks_exact(LANES)).zip(zs.chunks_exact(LANES));
-        for (row, ((xs, ys), zs)) in rows.enumerate() {
-            for k in 0..LANES {
-                let (x, y, z) = (xs[k] - p.x, ys[k] - p.y, zs[k] - p.z);
-                count[k] += (x * x + y * y + z * z < spacing * spacing) as u64;
-            }
-            if row % 8 == 7 && count.iter().sum::<u64>() >= RIVALS {
-                break;
-            }
-        }
-        *rivals = count.iter().sum::<u64>().min(RIVALS);
-    }
 }
 
 /// A number that depends on the seed and the point's index only (two rounds of splitmix64, Steele et al. 2014).
@@ -129,29 +83,84 @@ fn keep_forced(cells: &Cells, spacing: f64, forced: &[bool], state: &[AtomicU8])
     );
 }
 
+/// A point that is neither kept nor covered.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Open {
+    rivals: u64,
+    chance: u64,
+    slot: u32,
+}
+
 /// Keeps each point of the block that is still open, points with few rivals first, then in random order, and covers its neighbours.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn throw(cells: &Cells, spacing: f64, block: &[Range<usize>], rank: &[u64], state: &[AtomicU8]) {
+fn throw(cells: &Cells, spacing: f64, seed: u64, block: &[Range<usize>], state: &[AtomicU8]) {
     let is_open = |slot: u32| state[slot as usize].load(Relaxed) == OPEN;
-    let slots = block.iter().cloned().flatten().map(|slot| (rank[slot], slot as u32));
-    let mut open: Vec<(u64, u32)> = slots.filter(|&(_, slot)| is_open(slot)).collect();
+    let slots = block.iter().cloned().flatten().map(|slot| slot as u32).filter(|&slot| is_open(slot));
+    let chance = |slot: u32| chance(seed, cells.order()[slot as usize].into());
+    let mut open: Vec<Open> = slots.map(|slot| Open { rivals: 0, chance: chance(slot), slot }).collect();
+    let mut next = Vec::new();
     while !open.is_empty() {
-        let first = if open.len() <= FEW { open.len() } else { (open.len() / 4).max(FEW) };
-        if first < open.len() {
-            open.select_nth_unstable(first);
+        count_rivals(cells, spacing, state, &mut open);
+        next.clone_from(&open);
+        let first = (open.len() / PARTS).max(FEW);
+        if first < next.len() {
+            next.select_nth_unstable(first);
+            next.truncate(first);
         }
-        open[..first].sort_unstable();
-        for &(_, slot) in &open[..first] {
-            if is_open(slot) {
-                cover(cells, slot, spacing, state);
-                state[slot as usize].store(KEPT, Relaxed);
+        next.sort_unstable();
+        keep_open(cells, spacing, state, &next);
+        open.retain(|point| is_open(point.slot));
+    }
+}
+
+/// Keeps those of some points, in their order, that are still open.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn keep_open(cells: &Cells, spacing: f64, state: &[AtomicU8], points: &[Open]) {
+    for &Open { slot, .. } in points {
+        if state[slot as usize].load(Relaxed) == OPEN {
+            cover(cells, slot, spacing, state);
+            state[slot as usize].store(KEPT, Relaxed);
+        }
+    }
+}
+
+/// Counts the open points nearer than `spacing` [m] to each of some, sorted by slot; itself counts, too. Those around a cell are laid side
+/// by side once for all points of the cell.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn count_rivals(cells: &Cells, spacing: f64, state: &[AtomicU8], points: &mut [Open]) {
+    let [mut xs, mut ys, mut zs]: [Vec<f64>; 3] = Default::default();
+    let mut around = u32::MAX;
+    for Open { rivals, slot, .. } in points {
+        let slot = *slot;
+        if cells.cell(slot) != around {
+            around = cells.cell(slot);
+            [&mut xs, &mut ys, &mut zs].into_iter().for_each(Vec::clear);
+            let mine = |run: &Range<usize>| run.contains(&(slot as usize));
+            // Its own row first: it has most of the near ones.
+            for run in cells.runs(slot).filter(mine).chain(cells.runs(slot).filter(|run| !mine(run))) {
+                for (p, state) in cells.points[run.clone()].iter().zip(&state[run]) {
+                    if state.load(Relaxed) == OPEN {
+                        xs.push(p.x);
+                        ys.push(p.y);
+                        zs.push(p.z);
+                    }
+                }
+            }
+            let whole = xs.len().next_multiple_of(LANES);
+            [&mut xs, &mut ys, &mut zs].into_iter().for_each(|column| column.resize(whole, NO_POINT));
+        }
+        let p = cells.points[slot as usize];
+        let mut count = [0u64; LANES];
+        let rows = xs.chunks_exact(LANES).zip(ys.chunks_exact(LANES)).zip(zs.chunks_exact(LANES));
+        for (row, ((xs, ys), zs)) in rows.enumerate() {
+            for k in 0..LANES {
+                let (x, y, z) = (xs[k] - p.x, ys[k] - p.y, zs[k] - p.z);
+                count[k] += (x * x + y * y + z * z < spacing * spacing) as u64;
+            }
+            if row % 8 == 7 && count.iter().sum::<u64>() >= RIVALS {
+                break;
             }
         }
-        let mut number = 0;
-        open.retain(|&(_, slot)| {
-            number += 1;
-            number > first && is_open(slot)
-        });
+        *rivals = count.iter().sum::<u64>().min(RIVALS);
     }
 }
 

@@ -109,15 +109,26 @@ pub fn anisotropy(runs: &[Run], draws: usize) -> Anisotropy {
     Anisotropy { speed: mean(&all), unevenness: spread(unevenness, &|d| d.0), drift: spread(drift, &|d| d.1) }
 }
 
-/// Unevenness and drift.
+/// Square of the drift [–] of walls that are alike, the mean over them; the interval is that of the walls.
+pub fn squared_drift(walls: &[Vec<Run>]) -> Mean {
+    mean(&walls.iter().map(|runs| squares(runs).1).collect::<Vec<f64>>())
+}
+
+/// Unevenness and drift; 0 where chance explains more than there is.
 fn indices(runs: &[Run]) -> (f64, f64) {
+    let (unevenness, drift) = squares(runs);
+    (unevenness.max(0.0).sqrt(), drift.max(0.0).sqrt())
+}
+
+/// Squares of unevenness and drift; negative where chance explains more than there is.
+fn squares(runs: &[Run]) -> (f64, f64) {
     let down: Vec<Mean> = runs.iter().map(|r| mean(&r.down)).collect();
     let aside: Vec<Mean> = runs.iter().map(|r| mean(&r.aside)).collect();
     let error = |of: &[Mean]| mean(&of.iter().map(|m| (m.off / 1.96).powi(2)).collect::<Vec<f64>>()).mean;
     let speeds = mean(&down.iter().map(|m| m.mean).collect::<Vec<f64>>());
     let squares = mean(&aside.iter().map(|m| m.mean.powi(2)).collect::<Vec<f64>>()).mean;
-    let root = |x: f64| x.max(0.0).sqrt() / speeds.mean;
-    (root(speeds.deviation.powi(2) - error(&down)), root(squares - error(&aside)))
+    let share = |square: f64| square / speeds.mean.powi(2);
+    (share(speeds.deviation.powi(2) - error(&down)), share(squares - error(&aside)))
 }
 
 /// The same number of grains, drawn from those there are.

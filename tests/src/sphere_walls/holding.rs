@@ -25,6 +25,9 @@ use grainpipe_tests::setups::{Law, empty, grain};
 const WAIT: f64 = 6.0;
 /// Two surfaces as near as this touch, in grain radii.
 const TOUCH: f64 = 1e-3;
+/// A fourth sphere that is nearer than this, in grain radii, makes one hollow of two pockets: a grain that leaves the first may stop in
+/// the second, hardly farther on.
+const BESIDE: f64 = 0.2;
 /// How a grain is kept from rolling: μ_r [–], above μ r/R* of every wall here.
 const BLOCKED: f64 = 1.5;
 
@@ -120,7 +123,7 @@ fn rested(setup: &Setup, time: f64) -> Vec<Particle> {
 }
 
 /// Tilt [rad] at which a grain of radius `r` [m] leaves its pocket without friction, by the formula; `None` where no three spheres
-/// hold it. `at` is where it rests.
+/// hold it, or a fourth is almost as near. `at` is where it rests.
 pub fn closed_tilt(spheres: &[(Vec3, f64)], r: f64, at: Vec3, azimuth: f64) -> Option<f64> {
     let (corners, height, foot) = support(spheres, r, at)?;
     let way = Vec3::new(azimuth.cos(), azimuth.sin(), 0.0);
@@ -135,14 +138,16 @@ pub fn closed_tilt(spheres: &[(Vec3, f64)], r: f64, at: Vec3, azimuth: f64) -> O
     (s > 0.0 && s.is_finite()).then(|| (s / height).atan())
 }
 
-/// Centres of the spheres that a grain rests on, counterclockwise, its height above them, and its foot among them.
+/// Centres of the spheres that a grain rests on, counterclockwise, its height above them, and its foot among them; `None` where another
+/// one is almost as near.
 fn support(spheres: &[(Vec3, f64)], r: f64, at: Vec3) -> Option<(Vec<Vec3>, f64, Vec3)> {
-    let touched = |s: &&(Vec3, f64)| (s.0 - at).norm() - s.1 - r < TOUCH * r;
-    let mut corners: Vec<Vec3> = spheres.iter().filter(touched).map(|s| s.0).collect();
+    let nearer = |gap: f64| move |s: &&(Vec3, f64)| (s.0 - at).norm() - s.1 - r < gap * r;
+    let mut corners: Vec<Vec3> = spheres.iter().filter(nearer(TOUCH)).map(|s| s.0).collect();
     let foot = Vec3::new(at.x, at.y, corners.first()?.z);
     let angle = |c: &Vec3| (c.y - foot.y).atan2(c.x - foot.x);
     corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
-    (corners.len() >= 3).then_some((corners, at.z - foot.z, foot))
+    let beside = spheres.iter().filter(nearer(BESIDE)).count();
+    (corners.len() >= 3 && beside == corners.len()).then_some((corners, at.z - foot.z, foot))
 }
 
 /// Tilt [rad] at which a grain that cannot roll leaves a pocket of a square lattice of spacing `p` across a side, by the formula; spheres
@@ -154,7 +159,7 @@ pub fn blocked_tilt(p: f64, big: f64, r: f64, friction: f64) -> f64 {
     (0.5 * p / height).atan() + (friction / wedge).atan()
 }
 
-/// The largest arctan(c/H) [rad] of the pockets that grains of radius `r` [m] rest in.
+/// The largest arctan(c/H) [rad] of the pockets of three spheres, with no other near, that grains of radius `r` [m] rest in.
 pub fn bound(spheres: &[(Vec3, f64)], r: f64, grains: &[(Vec3, f64)]) -> f64 {
     let steepest = |(at, _): &(Vec3, f64)| {
         let (corners, height, foot) = support(spheres, r, *at)?;

@@ -34,7 +34,7 @@ fn pockets_hold_up_to_their_tilt() {
             let left = leaving_tilts(
                 &wall,
                 kind,
-                &places(0.3, 0.08, 9),
+                &places(0.3, 0.05, 25),
                 Tilting { azimuth, from: 0.0, step: TILT, stiffness: 3e4 },
             );
             let tops =

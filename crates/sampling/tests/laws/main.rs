@@ -114,9 +114,9 @@ fn golden_samples_stay_what_they_are() {
 
 /// Number of points, and FNV-1a of their indices.
 const GOLDEN: [(usize, u64); 4] = [
-    (5719, 14981910778177803586),
-    (5000, 9256690905395815296),
-    (5719, 1091086842973065924),
+    (5864, 7108701606534372638),
+    (5000, 11880176359934542335),
+    (5864, 7631349653192467468),
     (9709, 15234346403559292376),
 ];
 
@@ -184,7 +184,8 @@ fn the_spectrum_tells_chance_blue_noise_and_rows_apart() {
     let made = sample(&dense, None, &settings(Amount::Spacing(0.008), Method::Poisson)).unwrap();
     let blue = sampling::spectrum(&pick(&dense, &made.kept), 0.01).unwrap();
     let seen = format!("{} {:?} {}", blue.low(), blue.peak(), blue.mean_anisotropy());
-    assert!(blue.low() < 0.25 && blue.peak().1 < 2.0 && blue.mean_anisotropy() < 1.5, "{seen}");
+    // A sample as even as this has a wider first peak, as one by elimination has.
+    assert!(blue.low() < 0.10 && blue.peak().1 < 2.5 && blue.mean_anisotropy() < 1.3, "{seen}");
     let rows: Vec<Vec3> =
         (0..20_000).map(|i| Vec3::new((i % 200) as f64, (i / 200) as f64, 0.0) * 0.005).collect();
     let rows = sampling::spectrum(&rows, 0.005).unwrap();

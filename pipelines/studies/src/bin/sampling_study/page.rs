@@ -18,7 +18,7 @@ bluenoise-sample scan.ply --spacing 0.012 --no-measures --report count.json -o e
 
 | `--method` | what it does | use it for |
 |---|---|---|
-| `poisson` | Poisson disk: takes the most isolated point first | the default: guarantees both distances, and is fast |
+| `poisson` | Poisson disk: takes the point with the fewest rivals left first | the default: guarantees both distances, and is fast |
 | `eliminate` | removes the most crowded point repeatedly (after Yuksel 2015) | an exact count |
 | `relax` | Poisson disk; then each kept point is replaced by the point nearest to the middle of its share (Lloyd) | the most even density over long distances |
 | `tile` | lays a prepared even pattern patch by patch and closes the seams by Poisson disk | dense scans. On coarse scans it keeps fewer points for the same spacing |
