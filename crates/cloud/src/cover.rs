@@ -1,19 +1,17 @@
 //! The mesh over a hole, and the smooth height that its points get.
 
 use crate::holes::{GROW, Hole};
-use crate::patch::ThinPlate;
 use crate::pivot::pivot;
 use crate::raster::Raster;
+use crate::spline::{Sample, Spline};
 use crate::volume;
 use geom::Vec3;
 use serde::Serialize;
 use std::collections::HashMap;
 use std::str::FromStr;
 
-/// Most positions that a thin plate is fitted to: it costs their number cubed.
-const MOST_POSITIONS: usize = 250;
-/// Smoothing of the plate [–]: follows the surface over about two scales, not the noise.
-const SMOOTHING: f64 = 3.0;
+/// Most samples that the surface is fitted to: it costs their number cubed.
+const MOST_SAMPLES: usize = 160;
 /// Width of the surroundings that are used, in scales of the fit.
 const RING: f64 = 3.0;
 /// Share of the open cells that a mesh must cover.
@@ -23,7 +21,7 @@ const CLOSED: f64 = 0.95;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mesher {
-    /// A ball rolls over the hole; the surface of least bending.
+    /// A ball rolls over the hole; the surface is as smooth as its surroundings say.
     #[default]
     BallPivoting,
     /// Signed distances that are diffused; the surface of a membrane.
@@ -210,15 +208,12 @@ impl Heights {
     fn new(hole: &Hole, mask: &[bool], around: &[(u32, Vec3)]) -> Heights {
         let raster = hole.raster;
         let (lo, side) = Heights::window(&raster, mask);
-        let mut scale = hole.fit;
-        let mut positions = means(hole, around, scale);
-        while positions.len() > MOST_POSITIONS {
-            scale *= 1.3;
-            positions = means(hole, around, scale);
-        }
-        let plate = ThinPlate::fit(&positions, scale, SMOOTHING);
         let corner = |i: usize| i as f64 * raster.cell - raster.half;
-        let node = |i: usize| plate.height(corner(lo.0 + i % side.0), corner(lo.1 + i / side.0));
+        let spline = Spline::fit(&samples(hole, around));
+        let node = |i: usize| {
+            let (u, v) = (corner(lo.0 + i % side.0), corner(lo.1 + i / side.0));
+            spline.as_ref().map_or(0.0, |spline| spline.height(u, v) - hole.surface.height(u, v))
+        };
         Heights { raster, first: lo, side, nodes: (0..side.0 * side.1).map(node).collect() }
     }
 
@@ -249,8 +244,20 @@ impl Heights {
     }
 }
 
-/// Mean position of the points of each square of side `scale` [m], with the height that the quadratic leaves.
-fn means(hole: &Hole, around: &[(u32, Vec3)], scale: f64) -> Vec<Vec3> {
+/// Mean positions of the points of squares, so wide that they are not too many, and at least as wide as the scale of the fit. A mean lies
+/// on the surface: the mean of what the quadratic leaves is taken, which bends less.
+fn samples(hole: &Hole, around: &[(u32, Vec3)]) -> Vec<Sample> {
+    let mut scale = hole.fit;
+    loop {
+        let samples = means(hole, around, scale);
+        if samples.len() <= MOST_SAMPLES {
+            return samples;
+        }
+        scale *= 1.3;
+    }
+}
+
+fn means(hole: &Hole, around: &[(u32, Vec3)], scale: f64) -> Vec<Sample> {
     let mut number: HashMap<(i64, i64), usize> = HashMap::new();
     let mut sums: Vec<(Vec3, f64)> = Vec::new();
     for (_, p) in around {
@@ -262,5 +269,9 @@ fn means(hole: &Hole, around: &[(u32, Vec3)], scale: f64) -> Vec<Vec3> {
         sums[at].0 += Vec3::new(p.x, p.y, p.z - hole.surface.height(p.x, p.y));
         sums[at].1 += 1.0;
     }
-    sums.into_iter().map(|(sum, count)| sum / count).collect()
+    let mean = |(sum, count): (Vec3, f64)| {
+        let mean = sum / count;
+        Sample { position: mean + Vec3::z() * hole.surface.height(mean.x, mean.y), count }
+    };
+    sums.into_iter().map(mean).collect()
 }

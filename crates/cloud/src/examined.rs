@@ -26,7 +26,8 @@ const MOST_CELLS: f64 = 16e6;
 const RIM: [f64; 2] = [4.5, 7.5];
 /// There a window is thin whose points are fewer than this many times what an open one may have: 45 % of what is there on average.
 const THIN: f64 = 1.8;
-/// Share of the ring that may be thin [–]; half of it must hold points of the surface.
+/// Share of the ring whose windows must hold points of the surface [–], and share of these that may be thin.
+const FILLED: f64 = 0.6;
 const MOST_THIN: f64 = 0.25;
 /// Of the spacings at the ends of a loop, sorted, the share that the scale is taken from: the sparser side must not look open.
 const SPARSER: f64 = 0.75;
@@ -169,7 +170,7 @@ impl<'a> Patch<'a> {
             filled += u32::from(windows[cell] > 0);
             thin += u32::from(windows[cell] > 0 && f64::from(windows[cell]) < THIN * most);
         }
-        2 * filled > ring && f64::from(thin) <= MOST_THIN * f64::from(filled)
+        f64::from(filled) > FILLED * f64::from(ring) && f64::from(thin) <= MOST_THIN * f64::from(filled)
     }
 
     fn hole(

@@ -32,6 +32,7 @@ mod sheet;
 mod sieve;
 mod smallest;
 pub mod sparse;
+mod spline;
 mod step;
 mod surrounded;
 pub mod units;

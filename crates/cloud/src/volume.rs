@@ -8,7 +8,7 @@
 //! Weighted signed distances: Curless & Levoy (1996), doi:10.1145/237170.237269. Diffusion into what is not known: Davis, Marschner, Garr &
 //! Levoy (2002), doi:10.1109/TDPVT.2002.1024098; theirs is stopped after some steps, here it has come to rest. Deviation: the box
 //! is aligned with the hole's surroundings, and the sheet of the zero surface nearest to their quadratic is taken, so overhangs are
-//! closed flat. The surface bends as little as a membrane may, so where it is curved it lies lower than the thin plate of the first way.
+//! closed flat. The surface bends as little as a membrane may, so where it is curved it lies lower than that of the first way.
 
 use crate::holes::Hole;
 use crate::sheet;
