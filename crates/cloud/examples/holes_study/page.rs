@@ -39,12 +39,13 @@ impl Row {
         let sum = |a: (f64, usize), s: &Score| (a.0 + s.squares.0, a.1 + s.squares.1);
         let (squares, added) = self.scores().filter(|s| s.found).fold((0.0, 0), sum);
         format!(
-            "| {} | {} | {:.1} % | {:.2} | {} | {:.2} | {:.1} |\n",
+            "| {} | {} | {:.1} % | {:.2} | {} | {:.2} | {:.2} | {:.1} |\n",
             self.name,
             columns.join(" | "),
             100.0 * found as f64 / all.max(1) as f64,
             1e5 * false_finds as f64 / points.max(1) as f64,
             if matches!(self.body, Some(Body::Scan(_))) { self.own.to_string() } else { "–".to_owned() },
+            median(self.scores().filter(|s| s.found).filter_map(Score::rms)),
             (squares / added.max(1) as f64).sqrt(),
             median(self.scores().filter(|s| s.found).map(|s| s.hausdorff)),
         )
@@ -58,10 +59,10 @@ pub fn sum(name: &str, rows: &[Row]) -> Row {
 }
 
 pub fn table<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
-    let head = "| cut out of | found: 3–6 spacings wide | 6–8 | 8–12 | 12–25 | 25–60 | 8 and more | false per 10⁵ points | own holes | RMS [spacings] | \
+    let head = "| cut out of | found: 3–6 spacings wide | 6–8 | 8–12 | 12–25 | 25–60 | 8 and more | false per 10⁵ points | own holes | RMS of a hole, median [spacings] | RMS of all points [spacings] | \
                 Hausdorff, median [spacings] |\n";
     let lines: String = rows.into_iter().map(Row::line).collect();
-    format!("{head}|{}\n{lines}", "---|".repeat(11))
+    format!("{head}|{}\n{lines}", "---|".repeat(12))
 }
 
 /// The median of some numbers.
