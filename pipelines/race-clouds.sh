@@ -17,7 +17,8 @@ spacing=0.005 roughness=0.001
 stages=(cloud-crop cloud-fill bluenoise-sample wallgen)
 options_cloud_crop=(--remove halfspace:0,0,0,-1,0,0)
 options_cloud_fill=()
-options_bluenoise_sample=(--spacing $spacing)
+# Without the spectrum, which pymeshlab does not measure either.
+options_bluenoise_sample=(--spacing $spacing --no-measures)
 options_wallgen=(--roughness $roughness)
 
 now() { date +%s.%N; }

@@ -24,6 +24,8 @@ use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// More rivals than this are not told apart: the cost stays linear in the number of points.
 const RIVALS: u64 = 48;
+/// Bits that these take.
+const RANKED: u32 = 8;
 /// Width of a block in cells; must be more than 2.
 const BLOCK: i64 = 16;
 /// One part of so many of the open points is thrown before their rivals are counted again.
@@ -86,8 +88,8 @@ fn keep_forced(cells: &Cells, spacing: f64, forced: &[bool], state: &[AtomicU8])
 /// A point that is neither kept nor covered.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Open {
-    rivals: u64,
-    chance: u64,
+    /// Rivals in the highest byte, then chance.
+    rank: u64,
     slot: u32,
 }
 
@@ -95,8 +97,8 @@ struct Open {
 fn throw(cells: &Cells, spacing: f64, seed: u64, block: &[Range<usize>], state: &[AtomicU8]) {
     let is_open = |slot: u32| state[slot as usize].load(Relaxed) == OPEN;
     let slots = block.iter().cloned().flatten().map(|slot| slot as u32).filter(|&slot| is_open(slot));
-    let chance = |slot: u32| chance(seed, cells.order()[slot as usize].into());
-    let mut open: Vec<Open> = slots.map(|slot| Open { rivals: 0, chance: chance(slot), slot }).collect();
+    let chance = |slot: u32| chance(seed, cells.order()[slot as usize].into()) >> RANKED;
+    let mut open: Vec<Open> = slots.map(|slot| Open { rank: chance(slot), slot }).collect();
     let mut next = Vec::new();
     while !open.is_empty() {
         count_rivals(cells, spacing, state, &mut open);
@@ -128,29 +130,35 @@ fn keep_open(cells: &Cells, spacing: f64, state: &[AtomicU8], points: &[Open]) {
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn count_rivals(cells: &Cells, spacing: f64, state: &[AtomicU8], points: &mut [Open]) {
     let [mut xs, mut ys, mut zs]: [Vec<f64>; 3] = Default::default();
-    let mut around = u32::MAX;
-    for Open { rivals, slot, .. } in points {
+    let (mut around, mut whole) = (u32::MAX, 0);
+    for Open { rank, slot } in points {
         let slot = *slot;
         if cells.cell(slot) != around {
             around = cells.cell(slot);
-            [&mut xs, &mut ys, &mut zs].into_iter().for_each(Vec::clear);
             let mine = |run: &Range<usize>| run.contains(&(slot as usize));
             // Its own row first: it has most of the near ones.
-            for run in cells.runs(slot).filter(mine).chain(cells.runs(slot).filter(|run| !mine(run))) {
+            let runs = || cells.runs(slot).filter(mine).chain(cells.runs(slot).filter(|run| !mine(run)));
+            let most = runs().map(|run| run.len()).sum::<usize>() + LANES;
+            [&mut xs, &mut ys, &mut zs]
+                .into_iter()
+                .for_each(|column| column.resize(most.max(column.len()), NO_POINT));
+            let mut count = 0;
+            for run in runs() {
                 for (p, state) in cells.points[run.clone()].iter().zip(&state[run]) {
-                    if state.load(Relaxed) == OPEN {
-                        xs.push(p.x);
-                        ys.push(p.y);
-                        zs.push(p.z);
-                    }
+                    // Without a branch: which points are open cannot be predicted.
+                    (xs[count], ys[count], zs[count]) = (p.x, p.y, p.z);
+                    count += usize::from(state.load(Relaxed) == OPEN);
                 }
             }
-            let whole = xs.len().next_multiple_of(LANES);
-            [&mut xs, &mut ys, &mut zs].into_iter().for_each(|column| column.resize(whole, NO_POINT));
+            whole = count.next_multiple_of(LANES);
+            [&mut xs, &mut ys, &mut zs].into_iter().for_each(|column| column[count..whole].fill(NO_POINT));
         }
         let p = cells.points[slot as usize];
         let mut count = [0u64; LANES];
-        let rows = xs.chunks_exact(LANES).zip(ys.chunks_exact(LANES)).zip(zs.chunks_exact(LANES));
+        let rows = xs[..whole]
+            .chunks_exact(LANES)
+            .zip(ys[..whole].chunks_exact(LANES))
+            .zip(zs[..whole].chunks_exact(LANES));
         for (row, ((xs, ys), zs)) in rows.enumerate() {
             for k in 0..LANES {
                 let (x, y, z) = (xs[k] - p.x, ys[k] - p.y, zs[k] - p.z);
@@ -160,7 +168,8 @@ fn count_rivals(cells: &Cells, spacing: f64, state: &[AtomicU8], points: &mut [O
                 break;
             }
         }
-        *rivals = count.iter().sum::<u64>().min(RIVALS);
+        let rivals = count.iter().sum::<u64>().min(RIVALS);
+        *rank = rivals << (64 - RANKED) | *rank & (u64::MAX >> RANKED);
     }
 }
 
