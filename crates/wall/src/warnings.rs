@@ -121,9 +121,9 @@ fn check_particle(report: &mut WallReport, particle: f64, built: &Built) {
         let [x, y, z] = gap.at.map(|c| format!("{c:.4}"));
         let passes = Shown(particle);
         report.warnings.push(format!(
-            "the wall leaks: {} gaps pass a particle of {passes} m, the widest ({} m) at ({x}, {y}, {z}) m; \
+            "the wall leaks: a particle of {passes} m passes {}, the widest ({} m) at ({x}, {y}, {z}) m; \
              sample with a smaller spacing, fill the hole, or use larger radii (less roughness)",
-            report.leaks,
+            geom::counted(report.leaks, "gap"),
             Shown(gap.diameter)
         ));
     }
