@@ -224,8 +224,11 @@ fn step_inputs<'a>(model: &Model, particles: &'a Particles, layout: Layout) -> S
     StepInputs { dt, ahead, overlap_limit: model.setup.guards.overlap, rows, spins, layout }
 }
 
-/// Notes how particles move before they do; a fluid and local damping ask for that.
+/// Notes how particles move before they do; a fluid and local damping ask for that, of spheres that move on their own.
 fn keep_rows(model: &Model, state: &State, lists: &mut NeighbourLists) {
+    if state.clumps.carry_all(state.particles.len()) {
+        return;
+    }
     if model.setup.drag.is_some() || model.setup.local_damping.is_some() {
         lists.before.clone_from(&state.particles.rows);
     }

@@ -20,8 +20,9 @@ use crate::model::bonds::springs::numbers;
 use crate::model::{Halt, Model, With};
 use crate::neighbours::NeighbourLists;
 use crate::space::cell::Cell;
+use crate::state::clumps::FREE;
 use crate::state::particles::kick_row;
-use crate::state::{CellState, Held, ListStatus, State};
+use crate::state::{CellState, ClumpMotion, Held, ListStatus, RigidClumps, State};
 use crate::threads::{FEW, share};
 use geom::Vec3;
 use nalgebra::Matrix3;
@@ -74,12 +75,16 @@ fn volume(cell: &Cell) -> f64 {
 
 /// Mean stress of contacts and bonds, compression positive [Pa].
 fn stress(model: &Model, state: &State, lists: &NeighbourLists) -> Matrix3<f64> {
-    let (cell, sums, p) = (state.cell(model), state.contacts.sums(), &state.particles);
+    let (cell, p) = (state.cell(model), &state.particles);
     let middle = cell.centre();
     let chunk = |from: &usize| {
         let particles = *from..(from + CHUNK).min(p.len());
         particles.fold(Matrix3::zeros(), |sum: Matrix3<f64>, k| {
-            let (force, _) = sums.on(k, p.rows[k][3]);
+            let force = state.contacts.force_on(k);
+            // Most members of clumps touch nothing; to add zeros would change no bit.
+            if force == Vec3::zeros() {
+                return sum;
+            }
             sum + force * (p.position(k) - state.clumps.arm(k) - middle).transpose()
         })
     };
@@ -110,11 +115,9 @@ fn contacts_across(state: &State, lists: &NeighbourLists, cell: &Cell) -> Matrix
 
 /// Σ f ⊗ n of members that lie n lengths of the cell from the place that their clump gives them [N].
 fn members_beyond(state: &State) -> Matrix3<f64> {
-    let sums = state.contacts.sums();
     let mut sum = Matrix3::zeros();
     for (k, image) in state.clumps.images.iter().enumerate().filter(|(_, image)| **image != [0; 3]) {
-        let (force, _) = sums.on(k, state.particles.rows[k][3]);
-        sum += force * Vec3::from(image.map(f64::from)).transpose();
+        sum += state.contacts.force_on(k) * Vec3::from(image.map(f64::from)).transpose();
     }
     sum
 }
@@ -214,42 +217,39 @@ fn next_strain(model: &Model, state: &State, lists: &NeighbourLists, strained: &
     next
 }
 
-/// Gives every particle its share of how the cell has changed.
+/// Gives every particle its share of how the cell has changed; that of a member is that of its clump's centre.
 fn follow(model: &Model, state: &mut State, before: &Cell, now: &Cell) {
-    let (change, dt, ahead) = (now.speed - before.speed, model.dt, model.ahead());
-    let (mut work, mut out) = (0.0, false);
-    if change != Vec3::zeros() {
-        let (p, clumps) = (&mut state.particles, &state.clumps);
-        let count = p.len();
-        let tiles =
-            p.rows[..count].chunks_mut(CHUNK).zip(p.acceleration.chunks(CHUNK)).zip(p.home.chunks(CHUNK));
-        let done =
-            share(count >= FEW, tiles.enumerate().collect(), |(tile, ((rows, accelerations), home))| {
-                let (mut work, mut out) = (0.0, false);
-                for (k, row) in
-                    rows.iter_mut().enumerate().filter(|(k, _)| !clumps.is_member(tile * CHUNK + k))
-                {
-                    work += kick_row(row, &accelerations[k], &now.affine(&change, &row.position()), dt);
-                    out |= has_left(row, &home[k], ahead);
+    let (change, stretched) = (now.speed - before.speed, now.lengths() - before.lengths());
+    let (dt, ahead) = (model.dt, model.ahead());
+    let RigidClumps { flights, of, images, .. } = &mut state.clumps;
+    let carried = |f: &ClumpMotion| (!f.is_prescribed).then(|| now.affine(&change, &f.position));
+    let carried: Vec<Option<Vec3>> = flights.iter().map(carried).collect();
+    let (count, p) = (state.particles.len(), &mut state.particles);
+    let tiles = p.rows[..count].chunks_mut(CHUNK).zip(p.acceleration.chunks(CHUNK)).zip(p.home.chunks(CHUNK));
+    let done = share(count >= FEW, tiles.enumerate().collect(), |(tile, ((rows, accelerations), home))| {
+        let (mut work, mut out) = (0.0, false);
+        for (k, row) in rows.iter_mut().enumerate() {
+            let body = of.get(tile * CHUNK + k).map_or(FREE, |of| *of);
+            if body == FREE {
+                if change == Vec3::zeros() {
+                    continue;
                 }
-                (work, out)
-            });
-        (work, out) = done.into_iter().fold((work, out), |(w, o), d| (w + d.0, o | d.1));
-    }
-    let stretched = now.lengths() - before.lengths();
-    for f in state.clumps.flights.iter_mut().filter(|f| !f.is_prescribed) {
-        let by = now.affine(&change, &f.position);
-        work += f.kick(&by, dt);
-        for &m in &state.clumps.members[f.range()] {
-            let m = m as usize;
-            let (row, image) =
-                (&mut state.particles.rows[m], Vec3::from(state.clumps.images[m].map(f64::from)));
-            for a in 0..3 {
-                row[a] += image[a] * stretched[a];
-                row[4 + a] += by[a] + image[a] * change[a];
+                work += kick_row(row, &accelerations[k], &now.affine(&change, &row.position()), dt);
+            } else {
+                let Some(by) = carried[body as usize] else { continue };
+                let image = images[tile * CHUNK + k].map(f64::from);
+                for a in 0..3 {
+                    row[a] += image[a] * stretched[a];
+                    row[4 + a] += by[a] + image[a] * change[a];
+                }
             }
-            out |= has_left(row, &state.particles.home[m], ahead);
+            out |= has_left(row, &home[k], ahead);
         }
+        (work, out)
+    });
+    let (mut work, out) = done.into_iter().fold((0.0, false), |(w, o), d| (w + d.0, o | d.1));
+    for (f, by) in flights.iter_mut().zip(&carried) {
+        work += by.map_or(0.0, |by| f.kick(&by, dt));
     }
     state.ledger.move_by_walls(work);
     if out {

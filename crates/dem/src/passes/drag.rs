@@ -41,7 +41,9 @@ pub fn drag_power(model: &Model, state: &State, k: usize) -> f64 {
 
 /// After a move: what the fluid adds to it. Returns whether a particle has left its margin.
 pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bool {
-    let Some(drag) = model.setup.drag else { return false };
+    let Some(drag) = model.setup.drag.filter(|_| !state.clumps.carry_all(state.particles.len())) else {
+        return false;
+    };
     let (dt, gravity, zones, clumps) = (model.dt, model.setup.gravity, &state.zones, &state.clumps);
     let ahead = model.ahead();
     let (p, before) = (&mut state.particles, &lists.before);

@@ -82,7 +82,8 @@ impl Damped<'_> {
 
 /// After a move and what the fluid adds to it, of spheres; clumps are damped when they move ([`crate::passes::clumps`]). Returns whether a particle has left its margin.
 pub fn apply(model: &Model, state: &mut State, lists: &NeighbourLists) -> bool {
-    let Some(factor) = model.setup.local_damping else { return false };
+    let all_carried = state.clumps.carry_all(state.particles.len());
+    let Some(factor) = model.setup.local_damping.filter(|_| !all_carried) else { return false };
     let (dt, ahead, cell) = (model.dt, model.ahead(), state.cell(model));
     let (zones, clumps) = (&state.zones, &state.clumps);
     let p = &mut state.particles;

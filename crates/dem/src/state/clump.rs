@@ -1,7 +1,7 @@
 //! One clump: its state, and its step.
 
 use crate::setup::Setup;
-use crate::simd::{Row, Row4};
+use crate::simd::{Row, Row4, fetch};
 use crate::space::rotation;
 use crate::state::ledger::heavy;
 use crate::state::{DrivenBody, Particles};
@@ -51,6 +51,9 @@ pub struct ClumpMotion {
     /// Whether it moves by a prescribed motion.
     pub is_prescribed: bool,
 }
+
+/// Members between the one whose row is prefetched and the one that is added.
+const AHEAD: usize = 16;
 
 /// Principal axes to space.
 pub fn quaternion(q: &[f64; 4]) -> UnitQuaternion<f64> {
@@ -109,15 +112,22 @@ impl ClumpMotion {
     ) -> (Vec3, Vec3) {
         let turn = quaternion(&self.turn);
         let (mut a, mut torque) = (Vec3::zeros(), Vec3::zeros());
-        for &m in &members[self.range()] {
+        for (n, &m) in members[self.range()].iter().enumerate() {
+            if let Some(&soon) = members.get(self.first as usize + n + AHEAD) {
+                fetch(&particles.acceleration, soon as usize);
+                fetch(&particles.angular_acceleration, soon as usize);
+            }
             let m = m as usize;
             let push = particles.acceleration[m].vector() - gravity;
+            let turning = particles.angular_acceleration.get(m).map_or_else(Vec3::zeros, Row4::vector);
+            // Most members touch nothing; to add zeros would change no bit.
+            if push == Vec3::zeros() && turning == Vec3::zeros() {
+                continue;
+            }
             a += push;
             torque += (turn * arms[m].vector()).cross(&push);
-            if let Some(turning) = particles.angular_acceleration.get(m) {
-                let radius = particles.rows[m][3];
-                torque += turning.vector() * (INERTIA * radius * radius);
-            }
+            let radius = particles.rows[m][3];
+            torque += turning * (INERTIA * radius * radius);
         }
         (a + gravity, torque * self.mass)
     }

@@ -58,6 +58,11 @@ impl RigidClumps {
         self.flights.is_empty()
     }
 
+    /// Whether all of so many particles are members.
+    pub fn carry_all(&self, particles: usize) -> bool {
+        self.members.len() == particles
+    }
+
     /// Adds a clump, its members at the end of the particles.
     pub fn push(&mut self, body: &Body, setup: &Setup, particles: &mut Particles) {
         let shape = &setup.clumps.shapes[body.shape as usize];

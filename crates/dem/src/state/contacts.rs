@@ -97,6 +97,11 @@ impl ContactColumns {
         self.keeps = keep;
     }
 
+    /// Sum of the forces on particle number `k` [N].
+    pub fn force_on(&self, k: usize) -> geom::Vec3 {
+        self.layout.force_at(&self.sums.forces, k)
+    }
+
     /// Sums of the wrenches on all particles.
     pub fn sums(&self) -> WrenchSums<'_> {
         WrenchSums { first: 0, layout: self.layout, sums: self.sums.slices() }

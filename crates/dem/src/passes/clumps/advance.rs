@@ -3,8 +3,9 @@
 use crate::kernel::MoveFlags;
 use crate::model::Model;
 use crate::passes::clumps::instant::damped;
+use crate::passes::clumps::members::{MemberRows, Members, Write};
 use crate::setup::Setup;
-use crate::simd::{Row, Row4};
+use crate::simd::compiled::{self, Registers};
 use crate::space::cell::Cell;
 use crate::state::{ClumpMotion, Particles, RigidClumps, State};
 use crate::threads::share;
@@ -54,57 +55,10 @@ impl RigidClumps {
         let rows = rows[..count].chunks_mut(CHUNK).zip(spins);
         let rows = rows.zip(acceleration.chunks_mut(CHUNK)).zip(home.chunks(CHUNK)).enumerate();
         let moved = share(count > CHUNK, rows.collect(), |(n, (((rows, spins), acceleration), home))| {
-            members.write(n * CHUNK, rows, spins, acceleration, home)
+            let to = MemberRows { first: n * CHUNK, rows, spins, acceleration, home };
+            compiled::run::<Registers, _>(model.width, Write { members, to })
         });
         moved.into_iter().fold(MoveFlags::default(), MoveFlags::and)
-    }
-}
-
-/// What the rows of members are made of.
-struct Members<'a> {
-    clumps: &'a RigidClumps,
-    cell: Cell,
-    motion_limit: f64,
-    dt: f64,
-    ahead: f64,
-}
-
-impl Members<'_> {
-    /// Writes some rows, from number `first` on.
-    fn write(
-        &self,
-        first: usize,
-        rows: &mut [Row],
-        spins: &mut [Row4],
-        accelerations: &mut [Row4],
-        home: &[Row4],
-    ) -> MoveFlags {
-        let RigidClumps { flights, of, arms, images, .. } = self.clumps;
-        let mut moved = MoveFlags::default();
-        for (k, row) in rows.iter_mut().enumerate() {
-            let at = first + k;
-            let Some(f) = flights.get(of[at] as usize).filter(|f| !f.is_prescribed) else { continue };
-            let (position, mut velocity, mut way) = f.point(&arms[at]);
-            if self.cell.moves() {
-                let drift = self.cell.drift(&images[at]);
-                velocity += drift;
-                way += drift * self.dt;
-            }
-            let position = position + self.cell.shift(&images[at]);
-            row[..3].copy_from_slice(position.as_slice());
-            row[4..7].copy_from_slice(velocity.as_slice());
-            if let Some(spin) = spins.get_mut(k) {
-                *spin = Row4::of(f.spin);
-            }
-            // What brings it back to where it was: `position_before`.
-            let a = (velocity * self.dt - way) * (2.0 / (self.dt * self.dt));
-            accelerations[k] = Row4::of(a);
-            let limit = self.motion_limit * row[3];
-            moved.too_fast |= !(way.norm_squared() <= limit * limit);
-            let margin = (home[k][3] - self.ahead * velocity.norm()).max(0.0);
-            moved.left_margin |= (position - home[k].vector()).norm_squared() > margin * margin;
-        }
-        moved
     }
 }
 

@@ -5,4 +5,5 @@
 
 pub mod advance;
 pub mod instant;
+mod members;
 pub mod zones;
