@@ -149,7 +149,7 @@ impl TileSlice<'_> {
         let active = (s.slots.start - self.from.slot) / BLOCK;
         let active = &mut self.active[active..active + s.slots.len() / BLOCK];
         let mut slots = HistorySlots { history, active, layout, first: 0, columns };
-        let pose = (&inputs.poses[wall], &inputs.lengths);
+        let pose = inputs.model.walls[wall].pose(&inputs.poses[wall]);
         let mut from = 0;
         while from < s.len {
             let to = from + i[from..].iter().take_while(|&&k| k == i[from]).count();
@@ -157,7 +157,7 @@ impl TileSlice<'_> {
             let rows = &mut self.rows[first + from..first + to];
             let spins = rows_mut(self.spins, first + from, to - from);
             inputs.model.walls[wall].contact_points(
-                pose,
+                (&pose, &inputs.lengths),
                 row,
                 &partner[from..to],
                 (rows, spins),

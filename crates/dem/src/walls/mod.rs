@@ -207,10 +207,10 @@ impl WallBody {
         centres.get(part as usize).copied().zip(radii.get(part as usize).copied())
     }
 
-    /// Contact points of one particle, whose position and radius are `row`: `partners` are all that it may touch.
+    /// Contact points of one particle, whose position and radius are `row`, on the wall in a pose: `partners` are all that it may touch.
     pub fn contact_points(
         &self,
-        (pose, period): (&Pose, &Vec3),
+        (wall, period): (&WallPose, &Vec3),
         row: &Row,
         partners: &[u32],
         (rows, spins): (&mut [Row], &mut [Row4]),
@@ -225,7 +225,7 @@ impl WallBody {
         let count = self.parts();
         let part = |k: usize| (partners[k] % count) as usize;
         let shift = |k: usize| Image(partners[k] / count).shift(period);
-        let wall = self.pose(pose);
+        let pose = &wall.pose;
         let mut put = |k: usize, position: Vec3, radius: f64| {
             let (row, spin) = wall.row(position, radius, shift(k), centre);
             rows[k] = row;
@@ -330,7 +330,7 @@ mod tests {
                 let history = &mut [];
                 let active = &mut [];
                 let slots = HistorySlots { history, active, layout: Layout::default(), first: 0, columns: 0 };
-                let pose = wall.motion.pose(0.0);
+                let pose = body.pose(&wall.motion.pose(0.0));
                 body.contact_points((&pose, &Vec3::zeros()), &row, &[0], (&mut found, &mut []), slots);
                 let square: f64 = (0..3).map(|a| (found[0][a] - row[a]).powi(2)).sum();
                 assert!(square.is_finite() && square > 1e200, "{:?}, row {k}: {square}", wall.shape);
