@@ -74,6 +74,7 @@ row() {
         read -r -a limit < <("$examples/limits" "$threads" "$touching" "$listed" "limits-$threads" | awk -v k="$kernel" '$1 == k { print $5, $7 }')
         share[$((threads - 1))]=$(awk -v r="${rates[$((threads - 1))]}" -v m="${limit[0]}" 'BEGIN { printf "%.0f %%", 100 * r / m }')
         share[$((threads + 1))]=$(awk -v r="${rates[$((threads - 1))]}" -v m="${limit[1]}" 'BEGIN { printf "%.0f %%", 100 * r / m }')
+        if [ "$threads" = 1 ]; then echo "$name|${rates[0]}|${limit[1]}" >> allowed; fi
     done
     echo "| $name | $grains | $touching | $listed | ${rates[0]} | ${rates[1]} | $memory | $peak | ${own:-–} | ${share[0]}, ${share[1]} | ${share[2]}, ${share[3]} |" | tee -a table
     echo "$grains ${rates[0]}" > last
@@ -130,9 +131,9 @@ END
     dem-run cube.toml --until 1 --check -q --report check.json
     count=$(field check.json bonds) bytes=$(field check.json bytes_per_bond)
     for threads in 1 2; do rates+=("$(work=0 speed cube.toml "$threads" "$grains")"); done
-    awk -v n="$count" -v g="$grains" -v a="${rates[0]}" -v b="${rates[1]}" -v bytes="$bytes" '$1 == "bandwidth" { limit = $2 } END {
+    awk -v n="$count" -v g="$grains" -v a="${rates[0]}" -v b="${rates[1]}" -v bytes="$bytes" '$1 == "bandwidth" { limit = $2 } $1 == "bond" { operations = $3; divisions = $5; roots = $7; arithmetic = $9 } END {
         printf "%d parallel bonds instead of contacts, in a cube of %d grains: %.1f and %.1f million bond-steps per second on one and two threads, bending, shear, torsion, dashpots and stresses of both ends included. ", n, g, a * n / g, b * n / g
-        printf "A bond-step reads %.0f bytes and writes 112 of them, so memory alone would allow %.0f on one thread: arithmetic sets the speed.\n", bytes, 1e3 * limit / (bytes + 112) }' limits-1 | tee bonds
+        printf "A bond-step reads %.0f bytes and writes 112 of them, so memory alone would allow %.0f on one thread; its %d adds and multiplies, %d divisions and %d roots would allow %.0f.\n", bytes, 1e3 * limit / (bytes + 112), operations, divisions, roots, arithmetic }' limits-1 | tee bonds
 }
 
 by_effect() {
@@ -142,9 +143,9 @@ by_effect() {
     pile() { local name=$1 kernel=$2; shift 2; row "$name" pile.toml "$grains" "$touching" "$listed" "$kernel" "$rounds" "$@"; }
     pile frictionless frictionless --set contact.0.sliding_friction=0
     pile "+ sliding friction" friction
-    pile "+ rolling resistance" - "${rolling[@]}"
-    pile "+ twisting resistance" - "${rolling[@]}" "${twisting[@]}"
-    pile "+ cohesion" - "${rolling[@]}" "${twisting[@]}" --set contact.0.cohesion=sjkr --set contact.0.cohesion_energy_density=1e4
+    pile "+ rolling resistance" rolling "${rolling[@]}"
+    pile "+ twisting resistance" twisting "${rolling[@]}" "${twisting[@]}"
+    pile "+ cohesion" cohesion "${rolling[@]}" "${twisting[@]}" --set contact.0.cohesion=sjkr --set contact.0.cohesion_energy_density=1e4
     pile "sliding friction, mixed precision" - --set precision=mixed
     pile "sliding friction, single precision" - --set precision=f32
     { cat pile.toml; printf '[[bond]]\nbetween = ["grain", "grain"]\ngap = 0\nyoung = 1e6\npoisson = 0.25\n'; } > bonded.toml
@@ -203,15 +204,19 @@ caption() {
             printf "%s: triad %s GB/s, adds and multiplies %s, divisions %s, roots %s thousand millions a second (f64, %s lanes).\n",
                 t == 1 ? "one thread" : "two threads", v["bandwidth"], v["add_multiply"], v["divide"], v["root"], w }' "limits-$threads"
     done
-    echo "\`crates/dem/examples/limits.rs\` counts the bytes and operations of a particle and a contact: everything that a step reads or"
-    echo "writes, once, as if no cache kept it until the next step. So caches can lead to more than 100 % of memory."
+    echo "\`crates/dem/examples/limits/kernels.rs\` has the bytes and operations of a particle and a contact: everything that a step reads or"
+    echo "writes, once, as if no cache kept it until the next step. So caches can lead to more than 100 % of memory. A test counts the operations (\`crates/dem/src/operations.rs\`)."
+    awk -F'|' 'sub(/^\+ /, "", $1) && before {
+            if (!n++) printf "\n"
+            printf "With %s a step takes %.2f times the time of the row above and %.2f times its arithmetic.\n", $1, before / $2, allowed / $3
+        } { before = $2; allowed = $3 }' allowed
     awk '$1 > 5000 && !small { small = $2 } { large = $2; n = $1 } END {
         if (small && n >= 1e6) printf "\nA particle-step of %d grains costs %.2f times that of 10 000, on one thread.\n", n, small / large }' by-size
     awk '{ printf "\nWith frames of %d grains written to a file, the peak is %d bytes per grain. A frame written to a pipe, as here, is held in memory once more.\n", $1, $2 }' filed
     sed 's/^/- /' remarks
 }
 
-touch table remarks by-size filed
+touch table remarks by-size filed allowed
 echo "load before: $(cut -d' ' -f1 /proc/loadavg 2> /dev/null || echo unknown) (an idle machine is below 0.3)"
 for threads in 1 2; do "$examples/limits" $threads 2.4 4.3 > "limits-$threads"; done
 head='| scene | grains | touching | listed | 1 thread | 2 threads | memory | peak | own | of memory | of arithmetic |

@@ -3,9 +3,12 @@
 //!
 //! Measured: memory bandwidth by the triad a ← b + s c (McCalpin, 1995), far beyond all caches; adds and multiplies, divisions and
 //! square roots of f64 in the widest lanes, on registers. From these the particle-steps a second that memory alone and
-//! arithmetic alone allow, with the counts of [`KERNELS`].
+//! arithmetic alone allow, with the counts of [`KERNELS`], and what the arithmetic of bonds allows.
 #![cfg_attr(target_arch = "x86_64", expect(unsafe_code, reason = "the processor's own vector instructions"))]
 
+mod kernels;
+
+use kernels::{BOND, KERNELS, Kernel};
 use std::hint::black_box;
 use std::sync::Barrier;
 use std::thread;
@@ -18,44 +21,6 @@ const CHAINS: usize = 6;
 /// Rounds of a measurement; the best counts.
 const ROUNDS: usize = 5;
 
-/// What one kernel takes of one particle and one contact in one step, read off `kernel.rs`, the effects and `advance.rs`.
-struct Kernel {
-    name: &'static str,
-    /// Bytes of a particle: its row read and written (64 + 64), acceleration read and written (32 + 32), home (32), first entry (4);
-    /// with rotation spin read and written (32 + 32), angular acceleration read and written (32 + 32).
-    particle: f64,
-    /// Bytes of a listed contact: its two particles (8), two entries of the gather (8), its load written (32, with rotation 64) and
-    /// read again while it is in the cache (0), its memory read and written.
-    listed: f64,
-    /// Adds and multiplies of a contact that touches: geometry 50, Hooke 6; arms, slip and moment 30, sliding spring 68.
-    /// Comparison, choice, minimum and the branch of contacts that slide are not counted.
-    operations: f64,
-    divisions: f64,
-    roots: f64,
-    /// Adds and multiplies in the gather of a contact's two ends, four at a time.
-    gather: f64,
-}
-
-const KERNELS: [Kernel; 2] = [
-    Kernel {
-        name: "frictionless",
-        particle: 228.0,
-        listed: 48.0,
-        operations: 56.0,
-        divisions: 1.0,
-        roots: 2.0,
-        gather: 16.0,
-    },
-    Kernel {
-        name: "friction",
-        particle: 356.0,
-        listed: 128.0,
-        operations: 154.0,
-        divisions: 3.0,
-        roots: 4.0,
-        gather: 32.0,
-    },
-];
 /// Adds and multiplies of a listed contact that does not touch.
 const APART: f64 = 11.0;
 /// Adds and multiplies of a move, four at a time.
@@ -89,8 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let memory = kernel.particle + listed * kernel.listed;
         let (near, apart) = (touching, (listed - touching).max(0.0));
         let four = 2.0 * (MOVE + listed * kernel.gather) * lanes.width() as f64 / 8.0;
-        let arithmetic = (near * kernel.operations + apart * APART + four) / most.operations
-            + near * (kernel.divisions / most.divisions + kernel.roots / most.roots);
+        let arithmetic = near * most.seconds(kernel) + (apart * APART + four) / most.operations;
         println!(
             "{} bytes {:.0} memory {:.2} arithmetic {:.2}",
             kernel.name,
@@ -99,10 +63,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             1.0 / arithmetic / 1e6
         );
     }
+    let Kernel { name, operations, divisions, roots, .. } = BOND;
+    let arithmetic = 1e-6 / most.seconds(&BOND);
+    println!("{name} operations {operations} divisions {divisions} roots {roots} arithmetic {arithmetic:.2}");
     Ok(())
 }
 
 impl Limits {
+    /// What the arithmetic of a contact or a bond takes at least [s].
+    fn seconds(&self, kernel: &Kernel) -> f64 {
+        kernel.operations / self.operations + kernel.divisions / self.divisions + kernel.roots / self.roots
+    }
+
     fn measure(threads: usize, lanes: Lanes) -> Limits {
         let rate = |what| together(threads, move || lanes.rate(what));
         Limits {

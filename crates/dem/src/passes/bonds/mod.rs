@@ -4,7 +4,7 @@
 //! make_due → [insert_due] → act: pulls of this instant, and what they break → lists, if contacts begin → contacts → Bonds::add
 //! ```
 
-mod lanes;
+pub mod lanes;
 pub mod make;
 pub mod zones;
 
