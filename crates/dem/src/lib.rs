@@ -43,8 +43,6 @@ mod model;
 mod neighbours;
 #[cfg(not(target_arch = "nvptx64"))]
 mod observe;
-#[cfg(test)]
-mod operations;
 #[cfg(not(target_arch = "nvptx64"))]
 mod passes;
 #[cfg(not(target_arch = "nvptx64"))]

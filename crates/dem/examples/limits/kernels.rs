@@ -1,4 +1,4 @@
-//! What a step takes of a particle, a contact and a bond. Operations are as `crates/dem/src/operations.rs` counts them.
+//! What a step takes of a particle, a contact and a bond. Operations are as `crates/dem/src/passes/operations.rs` counts them.
 
 /// Bytes and operations of one kernel.
 pub struct Kernel {
@@ -37,5 +37,5 @@ pub const KERNELS: [Kernel; 5] = [
     kernel("cohesion", [356.0, 224.0, 48.0], [334.0, 5.0, 5.0]),
 ];
 
-/// A bond with moments, dashpots and the stresses of both ends; its bytes are told by `dem-run --report`.
+/// A bond with moments, dashpots and the stresses of both ends; `dem-run --report` has its bytes.
 pub const BOND: Kernel = kernel("bond", [0.0; 3], [510.0, 2.0, 4.0]);

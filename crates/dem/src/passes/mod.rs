@@ -13,6 +13,8 @@ pub mod kept;
 pub mod ledger;
 pub mod local_damping;
 pub mod mount;
+#[cfg(test)]
+mod operations;
 pub mod servo;
 pub mod sleep;
 pub mod stirred;

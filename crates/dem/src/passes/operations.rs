@@ -3,7 +3,7 @@
 //!
 //! Only what the results need is counted, and each product or sum once: a compiler leaves out the rest. So is what is the same for all contacts.
 
-#[path = "../examples/limits/kernels.rs"]
+#[path = "../../examples/limits/kernels.rs"]
 #[expect(dead_code, reason = "the example reads the rest of the table")]
 mod kernels;
 
