@@ -10,7 +10,7 @@ mod sort;
 
 pub use sort::sorted;
 
-use crate::Vec3;
+use crate::{Lattice, Vec3};
 use rayon::prelude::*;
 use sort::by_cell;
 use std::borrow::Cow;
@@ -28,13 +28,7 @@ const EMPTY: u32 = u32::MAX;
 /// Points sorted into cubic cells.
 #[derive(Debug, Clone)]
 pub struct Grid {
-    origin: Vec3,
-    cell: f64,
-    dims: [i64; 3],
-    /// Cells of a block, and how many blocks there are: one of all cells, or several of one size, the last of which may reach
-    /// beyond the cells.
-    block: [i64; 3],
-    blocks: [i64; 3],
+    lattice: Lattice,
     order: Vec<u32>,
     table: Table,
 }
@@ -66,28 +60,14 @@ impl Grid {
     }
 
     fn sorted(points: &[Vec3], cell: f64, points_of_a_block: Option<usize>) -> Grid {
-        assert!(cell > 0.0 && cell.is_finite(), "cell size must be positive, got {cell} m");
         assert!(points.len() < u32::MAX as usize, "more than 2^32 points in one grid");
-        let (lo, hi) = bounds(points);
-        let extent = if points.is_empty() { Vec3::zeros() } else { hi - lo };
-        assert!(extent.iter().all(|e| e.is_finite()), "coordinates must be finite");
-        let cell = cell.max(extent.max() / CELLS_PER_AXIS);
-        let dims = [0, 1, 2].map(|a| (extent[a] / cell).floor() as i64 + 1);
-        let (block, blocks) = (dims, [1; 3]);
-        let (order, table) = (Vec::new(), Table::Dense(Vec::new()));
-        let mut grid = Grid { origin: lo, cell, dims, block, blocks, order, table };
+        let lattice = Lattice::new(bounds(points), cell, points.len(), points_of_a_block);
+        let mut grid = Grid { lattice, order: Vec::new(), table: Table::Dense(Vec::new()) };
         if points.is_empty() {
-            (grid.dims, grid.block, grid.origin) = ([0; 3], [1; 3], Vec3::zeros());
             return grid;
         }
-        let cells = dims.iter().map(|&d| d as f64).product::<f64>();
-        // Blocks may reach beyond the last cells: their numbers must fit as well.
-        if let Some(points_of_a_block) = points_of_a_block.filter(|_| 8.0 * cells < i64::MAX as f64) {
-            grid.block = block_of(dims, points_of_a_block as f64 * cells / points.len() as f64);
-            grid.blocks = [0, 1, 2].map(|a| (dims[a] as u64).div_ceil(grid.block[a] as u64) as i64);
-        }
-        let cells = (0..3).map(|a| (grid.block[a] * grid.blocks[a]) as f64).product::<f64>();
-        let key = |p: &Vec3| grid.key(grid.cell_of(p));
+        let cells = lattice.keys();
+        let key = |p: &Vec3| lattice.key(lattice.cell_of(p));
         if cells <= DENSE_CELLS_PER_POINT * points.len() as f64 + 1024.0 {
             let keys: Vec<u64> = points.par_iter().map(key).collect();
             let (order, starts) = by_cell(&keys, cells as usize);
@@ -119,7 +99,7 @@ impl Grid {
         self.table = Table::Sparse { keys, starts, slots: OnceLock::new() };
     }
 
-    /// The cells that hold points, in sorted order: keys (see [`Grid::key`]), the first sorted place of each, and one more.
+    /// The cells that hold points, in sorted order: keys (see [`Lattice::key`]), the first sorted place of each, and one more.
     pub fn filled(&self) -> (Cow<'_, [u64]>, Cow<'_, [u32]>) {
         match &self.table {
             Table::Sparse { keys, starts, .. } => (keys.into(), starts.into()),
@@ -139,48 +119,33 @@ impl Grid {
         &self.order
     }
 
+    /// Its cells.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
     /// Width of a cell [m], at least what was asked for.
     pub fn cell(&self) -> f64 {
-        self.cell
+        self.lattice.cell
     }
 
     /// The cell that holds `p`, clamped to the box of the points.
     pub fn cell_of(&self, p: &Vec3) -> [i64; 3] {
-        [0, 1, 2].map(|a| (((p[a] - self.origin[a]) / self.cell) as i64).clamp(0, (self.dims[a] - 1).max(0)))
+        self.lattice.cell_of(p)
     }
 
     /// Number of cells along x, y, z.
     pub fn dims(&self) -> [i64; 3] {
-        self.dims
-    }
-
-    /// Number of a cell in sorted order: by block, in each z slowest, x fastest.
-    pub fn key(&self, [x, y, z]: [i64; 3]) -> u64 {
-        let number = |[x, y, z]: [i64; 3], of: [i64; 3]| (z * of[1] + y) * of[0] + x;
-        if self.blocks == [1; 3] {
-            return number([x, y, z], self.block) as u64;
-        }
-        let b = self.block;
-        let before = number([x / b[0], y / b[1], z / b[2]], self.blocks) * (b[0] * b[1] * b[2]);
-        (before + number([x % b[0], y % b[1], z % b[2]], b)) as u64
+        self.lattice.dims
     }
 
     /// Sorted places of the points in the cells `x` of row (`y`, `z`): one contiguous run for each block, perhaps empty.
     pub fn row(&self, x: Range<i64>, y: i64, z: i64) -> impl Iterator<Item = Range<usize>> + use<'_> {
-        let inside = y >= 0 && z >= 0 && y < self.dims[1] && z < self.dims[2];
-        let (mut from, to) = (x.start.max(0), if inside { x.end.min(self.dims[0]) } else { 0 });
-        std::iter::from_fn(move || {
-            let start = from;
-            let whole = self.blocks[0] == 1;
-            from = if whole { to } else { to.min((start / self.block[0] + 1) * self.block[0]) };
-            (start < to).then(|| self.run(start..from, y, z))
-        })
+        self.lattice.row(x, y, z).map(|(first, count)| self.run(first, count))
     }
 
-    /// Sorted places of the points in the cells `x` of row (`y`, `z`), which are of one block.
-    fn run(&self, x: Range<i64>, y: i64, z: i64) -> Range<usize> {
-        let first = self.key([x.start, y, z]);
-        let count = (x.end - x.start) as u64;
+    /// Sorted places of the points in so many cells that follow each other.
+    fn run(&self, first: u64, count: u64) -> Range<usize> {
         match &self.table {
             Table::Dense(starts) => {
                 starts[first as usize] as usize..starts[(first + count) as usize] as usize
@@ -208,11 +173,7 @@ impl Grid {
     /// so that no search costs more than the points: a grain of 5 m among grains of 5 mm would look into 10⁶ rows.
     pub fn runs_near(&self, centre: Vec3, radius: f64) -> impl Iterator<Item = Range<usize>> + '_ {
         let empty = self.order.is_empty();
-        let low = |a: usize| (((centre[a] - radius - self.origin[a]) / self.cell).floor()).max(-1.0) as i64;
-        let high = |a: usize| {
-            (((centre[a] + radius - self.origin[a]) / self.cell).floor()).min(self.dims[a] as f64) as i64
-        };
-        let (lo, hi) = ([0, 1, 2].map(|a| low(a).max(0)), [0, 1, 2].map(|a| high(a).min(self.dims[a] - 1)));
+        let [lo, hi] = self.lattice.around(&centre, radius);
         let rows_across = [1, 2].map(|a| (hi[a] - lo[a] + 1).max(0) as f64);
         let all = (rows_across[0] * rows_across[1] > self.order.len() as f64).then_some(0..self.order.len());
         let rows = if empty || all.is_some() { 0..0 } else { lo[2]..hi[2] + 1 };
@@ -232,6 +193,37 @@ impl Grid {
         self.runs_near(centre, radius)
             .flat_map(|run| self.order[run].iter().copied())
             .filter(move |&i| (points[i as usize] - centre).norm_squared() <= radius * radius)
+    }
+}
+
+impl Lattice {
+    /// Cells at least `cell` [m] wide over the box of so many points from its lowest to its highest corner [m], in blocks, as cubic as the box allows, that
+    /// would hold `points_of_a_block` each if they were spread evenly, or in one.
+    ///
+    /// # Panics
+    /// When `cell` is not positive, or a coordinate is not finite.
+    pub fn new(
+        (lo, hi): (Vec3, Vec3),
+        cell: f64,
+        points: usize,
+        points_of_a_block: Option<usize>,
+    ) -> Lattice {
+        assert!(cell > 0.0 && cell.is_finite(), "cell size must be positive, got {cell} m");
+        if points == 0 {
+            return Lattice { origin: Vec3::zeros(), cell, dims: [0; 3], block: [1; 3], blocks: [1; 3] };
+        }
+        let extent = hi - lo;
+        assert!(extent.iter().all(|e| e.is_finite()), "coordinates must be finite");
+        let cell = cell.max(extent.max() / CELLS_PER_AXIS);
+        let dims = [0, 1, 2].map(|a| (extent[a] / cell).floor() as i64 + 1);
+        let cells = dims.iter().map(|&d| d as f64).product::<f64>();
+        // Blocks may reach beyond the last cells: their numbers must fit as well.
+        let (mut block, mut blocks) = (dims, [1; 3]);
+        if let Some(points_of_a_block) = points_of_a_block.filter(|_| 8.0 * cells < i64::MAX as f64) {
+            block = block_of(dims, points_of_a_block as f64 * cells / points as f64);
+            blocks = [0, 1, 2].map(|a| (dims[a] as u64).div_ceil(block[a] as u64) as i64);
+        }
+        Lattice { origin: lo, cell, dims, block, blocks }
     }
 }
 

@@ -16,6 +16,7 @@ pub mod grid;
 pub mod hull;
 #[cfg(not(target_arch = "nvptx64"))]
 mod inside;
+mod lattice;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod mesh;
 #[cfg(not(target_arch = "nvptx64"))]
@@ -61,6 +62,7 @@ pub use boxes::Boxes;
 pub use cells::Cells;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use grid::Grid;
+pub use lattice::Lattice;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use moments::Moments;
 #[cfg(not(target_arch = "nvptx64"))]

@@ -60,8 +60,11 @@ fn order_is_a_permutation_sorted_by_cell_then_index() {
     for spread in [[1.0; 3], [90.0; 3]] {
         let points = scatter(500, spread);
         for grid in kinds(&points, 0.2) {
-            let keys: Vec<_> =
-                grid.order().iter().map(|&i| (grid.key(grid.cell_of(&points[i as usize])), i)).collect();
+            let keys: Vec<_> = grid
+                .order()
+                .iter()
+                .map(|&i| (grid.lattice().key(grid.cell_of(&points[i as usize])), i))
+                .collect();
             assert!(keys.is_sorted());
             assert_eq!(keys.len(), 500);
         }
