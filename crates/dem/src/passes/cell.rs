@@ -222,6 +222,9 @@ fn follow(model: &Model, state: &mut State, before: &Cell, now: &Cell) {
     let (change, stretched) = (now.speed - before.speed, now.lengths() - before.lengths());
     let (dt, ahead) = (model.dt, model.ahead());
     let RigidClumps { flights, of, images, .. } = &mut state.clumps;
+    if change == Vec3::zeros() && flights.is_empty() {
+        return;
+    }
     let carried = |f: &ClumpMotion| (!f.is_prescribed).then(|| now.affine(&change, &f.position));
     let carried: Vec<Option<Vec3>> = flights.iter().map(carried).collect();
     let (count, p) = (state.particles.len(), &mut state.particles);
