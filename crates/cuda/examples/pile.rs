@@ -29,10 +29,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         Asked { steps: steps.parse()?, rounds: rounds.parse()?, gpu: wants("--gpu"), cpu: wants("--cpu") };
     let one = setup(Path::new(file))?;
     println!(
-        "| grains | steps | lists | GPU [M/s] | {} threads [M/s] | ratio | steps alone [M/s] | sending | fetching | bits |",
+        "| grains | steps | lists | GPU [M/s] | {} threads [M/s] | ratio | steps alone [M/s] | listing | sending | fetching | bits |",
         rayon::current_num_threads()
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
     for copies in copies.split(',') {
         println!("{}", row(&one, copies.parse()?, asked)?);
     }
@@ -84,7 +84,7 @@ fn side_by_side(one: &Setup, copies: u32) -> Setup {
 fn time(sim: &mut Simulation, steps: u64) -> Result<(f64, DeviceTimes), Halt> {
     let to = |sim: &mut Simulation, last: u64| -> Result<(), Halt> {
         while sim.steps() < last {
-            sim.advance(last)?;
+            sim.advance(last, &mut |_| true)?;
         }
         Ok(())
     };
@@ -94,6 +94,7 @@ fn time(sim: &mut Simulation, steps: u64) -> Result<(f64, DeviceTimes), Halt> {
     let (seconds, after) = (start.elapsed().as_secs_f64(), sim.device_times().unwrap_or_default());
     let spent = DeviceTimes {
         sending: after.sending - before.sending,
+        listing: after.listing - before.listing,
         stepping: after.stepping - before.stepping,
         fetching: after.fetching - before.fetching,
     };
@@ -122,7 +123,8 @@ fn row(one: &Setup, copies: u32, asked: Asked) -> Result<String, Box<dyn Error>>
     let (grains, steps) = (setup.particles.len(), asked.steps);
     let speed = |seconds: f64| grains as f64 * steps as f64 / seconds / 1e6;
     let (mut there, mut here, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut alone, mut sending, mut fetching) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut alone, mut listing, mut sending, mut fetching) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut marks, mut lists) = (Vec::new(), 0);
     for _ in 0..asked.rounds {
         if asked.gpu {
@@ -131,6 +133,7 @@ fn row(one: &Setup, copies: u32, asked: Asked) -> Result<String, Box<dyn Error>>
             let (seconds, spent) = time(&mut sim, steps)?;
             there.push(speed(seconds));
             alone.push(speed(spent.stepping));
+            listing.push(100.0 * spent.listing / seconds);
             sending.push(100.0 * spent.sending / seconds);
             fetching.push(100.0 * spent.fetching / seconds);
             (lists, _) = (sim.rebuilds(), marks.push(mark(&mut sim)?));
@@ -148,11 +151,12 @@ fn row(one: &Setup, copies: u32, asked: Asked) -> Result<String, Box<dyn Error>>
     };
     let same = marks.windows(2).all(|two| two[0] == two[1]);
     Ok(format!(
-        "| {grains} | {steps} | {lists} | {} | {} | {} | {} | {} | {} | {} |",
+        "| {grains} | {steps} | {lists} | {} | {} | {} | {} | {} | {} | {} | {} |",
         shown(&there, "", 0),
         shown(&here, "", 1),
         shown(&ratios, "", 2),
         shown(&alone, "", 0),
+        shown(&listing, " %", 0),
         shown(&sending, " %", 0),
         shown(&fetching, " %", 0),
         match (asked.gpu && asked.cpu, same) {

@@ -17,8 +17,8 @@ use std::ptr::null_mut;
 /// What a GPU runs.
 pub const PTX: &str = include_str!("../kernels.ptx");
 
-/// Threads of a block: enough to hide memory, few enough for all their registers.
-const BLOCK: usize = 128;
+/// Threads of a block: few enough that registers are left for many blocks.
+const BLOCK: usize = 64;
 
 /// Why there is no GPU to compute with.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -139,6 +139,12 @@ impl Device for Gpu {
             at
         };
         Ok(Address(at))
+    }
+
+    fn clear(&mut self, at: Address, bytes: usize) -> Result<(), DeviceError> {
+        self.current().map_err(|e| self.failed(e))?;
+        // SAFETY: the caller has allocated as much.
+        unsafe { result::memset_d8_async(at.0, 0, bytes, null_mut()) }.map_err(|e| self.failed(e))
     }
 
     fn release(&mut self, at: Address) -> Result<(), DeviceError> {

@@ -58,7 +58,7 @@ mod threads;
 #[cfg(not(target_arch = "nvptx64"))]
 mod walls;
 
-pub use kernel::{device_tables, ported, thread};
+pub use kernel::{device_tables, lists, ported, thread};
 #[cfg(not(target_arch = "nvptx64"))]
 pub use model::bonds::find::bonds_at_start;
 #[cfg(not(target_arch = "nvptx64"))]

@@ -1,6 +1,8 @@
 //! How far a run is: for progress bars and monitors.
 
+use crate::simulate::Run;
 use serde::Serialize;
+use std::io::Write;
 
 /// A run at one step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -32,4 +34,36 @@ pub struct Progress {
     /// Time of the last frame or checkpoint [s].
     #[serde(skip)]
     pub saved: f64,
+}
+
+impl Progress {
+    /// The same at step `step` of a run that began with step `first` and has steps of `dt` [s].
+    pub(crate) fn reach(&mut self, step: u64, first: u64, dt: f64) {
+        (self.step, self.time) = (step, step as f64 * dt);
+        self.share = (step - first) as f64 / (self.steps - first).max(1) as f64;
+    }
+}
+
+impl<W: Write> Run<W> {
+    /// How far it is; the energy of a frame is given once.
+    pub(crate) fn progress(&mut self) -> Progress {
+        let (step, steps) = (self.sim.steps(), self.schedule.last);
+        let energy = self.frame_energy.take();
+        let mut progress = Progress {
+            time: 0.0,
+            until: steps as f64 * self.schedule.dt,
+            step,
+            steps,
+            share: 0.0,
+            particles: self.sim.particle_count(),
+            asleep: self.sim.asleep(),
+            kinetic: energy.map(|e| e.kinetic),
+            balance: energy.and_then(|e| e.balance),
+            frames: self.outcome.frames,
+            checkpoints: self.checkpoints,
+            saved: self.saved_at,
+        };
+        progress.reach(step, self.first, self.schedule.dt);
+        progress
+    }
 }

@@ -221,7 +221,7 @@ pub fn run<W: Write>(
             Err(_) if stop() => break Some(SIGNAL.to_owned()),
             other => other?,
         }
-        if let Err(halt) = run.step(step) {
+        if let Err(halt) = run.step(step, stop, report) {
             break Some(guard(scene, halt)?);
         }
     };
@@ -240,10 +240,19 @@ pub(crate) fn guard(scene: &Scene, halt: Halt) -> Result<String, SceneError> {
 }
 
 impl<W: Write> Run<W> {
-    fn step(&mut self, step: u64) -> Result<(), Halt> {
+    /// A step; on a device all up to the next one in which something is due, or until it is asked to `stop`.
+    fn step(&mut self, step: u64, stop: fn() -> bool, report: &mut dyn FnMut(&Progress)) -> Result<(), Halt> {
         let outcome = match self.outcome.device {
             None => self.sim.step(),
-            Some(_) => self.sim.advance(self.next_due(step)),
+            Some(_) => {
+                let mut so_far = self.progress();
+                let (first, dt, due) = (self.first, self.schedule.dt, self.next_due(step));
+                self.sim.advance(due, &mut |now| {
+                    so_far.reach(now, first, dt);
+                    report(&so_far);
+                    !stop()
+                })
+            }
         };
         self.crossings.append(&mut self.sim.take_crossings());
         outcome?;
@@ -276,25 +285,6 @@ impl<W: Write> Run<W> {
             }
         }
         Ok(())
-    }
-
-    fn progress(&mut self) -> Progress {
-        let (step, steps) = (self.sim.steps(), self.schedule.last);
-        let energy = self.frame_energy.take();
-        Progress {
-            time: self.sim.time(),
-            until: steps as f64 * self.schedule.dt,
-            step,
-            steps,
-            share: (step - self.first) as f64 / (steps - self.first).max(1) as f64,
-            particles: self.sim.particle_count(),
-            asleep: self.sim.asleep(),
-            kinetic: energy.map(|e| e.kinetic),
-            balance: energy.and_then(|e| e.balance),
-            frames: self.outcome.frames,
-            checkpoints: self.checkpoints,
-            saved: self.saved_at,
-        }
     }
 
     /// What the time step made, by the ledger.

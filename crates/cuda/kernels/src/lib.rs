@@ -5,6 +5,7 @@
 
 use core::arch::nvptx::{_block_dim_x, _block_idx_x, _thread_idx_x};
 use dem::device_tables::DeviceTables;
+use dem::lists;
 use dem::thread::{contact, particle};
 
 /// Number of this thread.
@@ -54,3 +55,18 @@ pub unsafe extern "ptx-kernel" fn spheres(tables: DeviceTables, step: u32) {
     // SAFETY: by contract.
     unsafe { particle::<true>(&tables, step, thread()) }
 }
+
+macro_rules! list_entries {
+    ($($name:ident)*) => { $(
+        /// One of the functions that make lists.
+        ///
+        /// # Safety
+        /// As that says.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "ptx-kernel" fn $name(tables: DeviceTables, mode: u32) {
+            // SAFETY: by contract.
+            unsafe { lists::$name(&tables, mode, thread()) }
+        }
+    )* };
+}
+dem::lists!(list_entries);

@@ -3,6 +3,7 @@
 
 use crate::device::{Device, DeviceError};
 use crate::kernel::device_tables::{Address, DeviceTables};
+use crate::kernel::lists;
 use crate::kernel::ported::NAMES;
 use crate::kernel::thread::{contact, particle};
 use std::collections::BTreeMap;
@@ -43,13 +44,34 @@ macro_rules! functions {
                 match name {
                     $(Some(stringify!($name)) => contact::<$effects>(tables, function as u32, step, thread),)*
                     _ if function == NAMES.len() => particle::<false>(tables, step, thread),
-                    _ => particle::<true>(tables, step, thread),
+                    _ if function == NAMES.len() + 1 => particle::<true>(tables, step, thread),
+                    _ => list_thread(function - NAMES.len() - 2, tables, step, thread),
                 }
             }
         }
     };
 }
 crate::ported!(functions);
+
+macro_rules! list_functions {
+    ($($name:ident)*) => {
+        /// The thread of a function that makes lists.
+        ///
+        /// # Safety
+        /// As each of them says.
+        unsafe fn list_thread(function: usize, tables: &DeviceTables, mode: u32, thread: usize) {
+            let name = lists::LIST_FUNCTIONS.get(function).copied();
+            // SAFETY: by contract.
+            unsafe {
+                match name {
+                    $(Some(stringify!($name)) => lists::$name(tables, mode, thread),)*
+                    _ => {}
+                }
+            }
+        }
+    };
+}
+crate::lists!(list_functions);
 
 impl Device for Local {
     fn name(&self) -> String {
@@ -61,6 +83,11 @@ impl Device for Local {
         let at = Address(lines.as_ptr() as u64);
         self.memory.insert(at.0, lines);
         Ok(at)
+    }
+
+    fn clear(&mut self, at: Address, bytes: usize) -> Result<(), DeviceError> {
+        self.bytes(at, bytes)?.fill(0);
+        Ok(())
     }
 
     fn release(&mut self, at: Address) -> Result<(), DeviceError> {

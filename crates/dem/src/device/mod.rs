@@ -1,29 +1,36 @@
 //! Steps on a device, a GPU for instance, over the same State: forces and the move there, everything else here.
 //!
 //! ```text
-//! rebuild lists here → send → steps there, until a particle leaves its margin → fetch → rebuild …
+//! send → lists there → steps there, until a particle leaves its margin → lists there → … → fetch, when something is due here
 //! ```
 //!
-//! The device runs the engine's own functions ([`crate::kernel::thread`]), so its bits are those of a processor. What it cannot compute is refused
+//! The device runs the engine's own functions ([`crate::kernel::thread`]), so its bits are those of a processor; its lists ([`crate::kernel::lists`])
+//! are those that a processor makes, slot by slot. What it cannot compute is refused
 //! before anything starts ([`refused`]). Observing, and the step after it, are done here.
 
+mod contacts;
+mod kinds;
+mod lister;
 mod local;
 mod refused;
+mod sorter;
 mod stepper;
 mod tables;
 #[cfg(test)]
 mod tests;
+mod work;
 
 pub use local::Local;
 pub use stepper::DeviceTimes;
 pub(crate) use stepper::Stepper;
 
 use crate::kernel::device_tables::{Address, DeviceTables};
+use crate::kernel::lists::LIST_FUNCTIONS;
 use crate::kernel::ported::NAMES;
 
-/// Functions that a device must have, by number: the compositions, then the moves without and with rotation.
+/// Functions that a device must have, by number: the compositions, the moves without and with rotation, and what makes lists.
 pub fn functions() -> Vec<&'static str> {
-    NAMES.iter().copied().chain(["centres", "spheres"]).collect()
+    NAMES.iter().copied().chain(["centres", "spheres"]).chain(LIST_FUNCTIONS.iter().copied()).collect()
 }
 
 /// Something that runs the threads of a step.
@@ -35,6 +42,11 @@ pub trait Device: Send {
     /// # Errors
     /// There is no more.
     fn allocate(&mut self, bytes: usize) -> Result<Address, DeviceError>;
+    /// Sets so many bytes to 0, after everything that was launched.
+    ///
+    /// # Errors
+    /// The device has failed.
+    fn clear(&mut self, at: Address, bytes: usize) -> Result<(), DeviceError>;
     /// Gives memory back.
     ///
     /// # Errors

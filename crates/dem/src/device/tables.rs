@@ -4,8 +4,10 @@
 use crate::device::{Device, DeviceError};
 use crate::kernel::SlotEnd;
 use crate::kernel::device_tables::{Address, DeviceBlock, DeviceFlags, DeviceKind};
+use crate::kernel::lists::tables::{DeviceSegment, DeviceWall, LeastRow};
 use crate::kernel::wall_point::WallPose;
 use crate::simd::{Row, Row4};
+use crate::space::images::Periods;
 
 /// Rows that may be copied as bytes: they have no gaps, and every pattern of bits is one.
 ///
@@ -19,7 +21,24 @@ macro_rules! plain {
         unsafe impl Plain for $row {}
     )* };
 }
-plain!(u8, u32, f64, Row, Row4, SlotEnd, DeviceBlock, DeviceKind, DeviceFlags, WallPose);
+plain!(
+    u8,
+    u32,
+    u64,
+    f64,
+    [u32; 3],
+    Periods,
+    LeastRow,
+    DeviceSegment,
+    DeviceWall,
+    Row,
+    Row4,
+    SlotEnd,
+    DeviceBlock,
+    DeviceKind,
+    DeviceFlags,
+    WallPose
+);
 
 /// A table, as long as it was at most.
 #[derive(Debug, Default)]
@@ -44,6 +63,13 @@ impl Table {
                 Ok(at)
             }
         }
+    }
+
+    /// Makes room for so many rows of zeros, and says where.
+    pub fn zeros<T: Plain>(&mut self, device: &mut dyn Device, rows: usize) -> Result<Address, DeviceError> {
+        let at = self.room::<T>(device, rows)?;
+        device.clear(at, rows * size_of::<T>())?;
+        Ok(at)
     }
 
     /// Copies rows there, and says where.

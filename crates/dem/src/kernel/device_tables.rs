@@ -2,6 +2,7 @@
 #![expect(unsafe_code, reason = "a table is an address in the memory of the device")]
 
 use crate::kernel::MoveInputs;
+use crate::kernel::lists::tables::ListTables;
 use crate::simd::Layout;
 use core::slice;
 
@@ -30,6 +31,16 @@ pub struct DeviceKind {
     pub numbers: u32,
     /// Which wall they meet.
     pub wall: u32,
+    /// Materials of its particles; the second is that of the wall where they meet one.
+    pub between: [u32; 2],
+    /// First of its classes in the lists of a tile; of images, its number among them.
+    pub class: u32,
+    /// Numbers of history that each contact keeps.
+    pub columns: u32,
+    /// Which of these take the opposite sign when the two particles are exchanged, by bits.
+    pub flips: u32,
+    /// Nothing.
+    pub pad: u32,
     /// Point and normal of a plane, as at t = 0.
     pub plane: [[f64; 3]; 2],
 }
@@ -71,23 +82,11 @@ pub struct DeviceFlags {
     pub deep: u32,
 }
 
-/// Tables of a step, and what all threads share.
+/// Columns of particles.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
-pub struct DeviceTables {
-    /// Of the move.
-    pub drive: MoveInputs,
-    /// Largest overlap over the smaller radius [–].
-    pub overlap_limit: f64,
-    /// Number of particles.
-    pub particles: u32,
-    /// Number of slots.
-    pub slots: u32,
-    /// 1 where particles turn.
-    pub rotates: u32,
-    /// 1 where any effect makes torques.
-    pub torques: u32,
-    /// [`Row`] of each particle, and two more that nothing touches.
+pub struct ParticleTables {
+    /// [`Row`] of each, and two more that nothing touches.
     pub rows: Address,
     /// [`Row4`] of each, and two more; none without rotation.
     pub spins: Address,
@@ -97,12 +96,50 @@ pub struct DeviceTables {
     pub angular_acceleration: Address,
     /// [`Row4`] of each: where it was listed, and its margin.
     pub home: Address,
-    /// First particle of each contact, a number of four bytes.
+    /// Material of each, four bytes.
+    pub material: Address,
+    /// Where each was when all of them were sent.
+    pub place: Address,
+}
+
+/// Columns of contacts, and which of them each particle has.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct ContactTables {
+    /// First particle of each, a number of four bytes.
     pub i: Address,
     /// Second particle, or image and part of a wall.
     pub partner: Address,
     /// History, by block and column.
     pub history: Address,
+    /// [`DeviceBlock`] of each block of slots.
+    pub blocks: Address,
+    /// First contact of each particle, and one more.
+    pub starts: Address,
+    /// Contacts of particles ([`crate::kernel::SlotEnd`]) in the order of their slots.
+    pub entries: Address,
+}
+
+/// Tables of a step, and what all threads share.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct DeviceTables {
+    /// Of the move.
+    pub drive: MoveInputs,
+    /// Largest overlap over the smaller radius [–].
+    pub overlap_limit: f64,
+    /// Number of particles.
+    pub particle_count: u32,
+    /// Number of slots.
+    pub slot_count: u32,
+    /// 1 where particles turn.
+    pub rotates: u32,
+    /// 1 where any effect makes torques.
+    pub torques: u32,
+    /// Columns of the particles.
+    pub particles: ParticleTables,
+    /// Columns of the contacts.
+    pub contacts: ContactTables,
     /// Whether the contact in a slot acts, a byte.
     pub acts: Address,
     /// Force of each contact, and the moment of its tangential part where particles turn.
@@ -114,8 +151,6 @@ pub struct DeviceTables {
     pub points: Address,
     /// [`WallPose`] of each wall, in each step of the launch.
     pub poses: Address,
-    /// [`DeviceBlock`] of each block of slots.
-    pub blocks: Address,
     /// [`DeviceKind`] of each kind of contact.
     pub kinds: Address,
     /// Numbers of their effects.
@@ -126,12 +161,10 @@ pub struct DeviceTables {
     pub walls: u32,
     /// First slot of each tile.
     pub tiles: Address,
-    /// First contact of each particle, and one more.
-    pub starts: Address,
-    /// Contacts of particles ([`SlotEnd`]) in the order of their slots.
-    pub entries: Address,
     /// [`DeviceFlags`].
     pub flags: Address,
+    /// What lists are made with.
+    pub lists: ListTables,
 }
 
 impl DeviceTables {

@@ -7,6 +7,7 @@ mod buffer;
 pub(crate) mod compose;
 pub(crate) mod contact_loop;
 pub mod device_tables;
+pub mod lists;
 pub(crate) mod motion;
 pub mod ported;
 pub(crate) mod sums;

@@ -34,21 +34,28 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
     const { assert!(E::HISTORY <= COLUMNS) };
     // SAFETY: by contract; this thread alone writes to the rows of its slot.
     unsafe {
-        if slot >= t.slots as usize || t.is_over(step) {
+        if slot >= t.slot_count as usize || t.is_over(step) {
             return;
         }
-        let block: DeviceBlock = *t.blocks.at(slot / BLOCK);
+        let block: DeviceBlock = *t.contacts.blocks.at(slot / BLOCK);
         let kind: &DeviceKind = &*t.kinds.at(block.kind as usize);
-        let i: u32 = *t.i.at(slot);
-        if kind.composition != composition || i >= t.particles {
+        let i: u32 = *t.contacts.i.at(slot);
+        if kind.composition != composition || i >= t.particle_count {
             return;
         }
         let lane = slot % BLOCK;
         let layout = t.layout();
-        let rows: &[Row] = t.table(t.rows, t.particles + 2);
-        let spins: &[Row4] = t.table(t.spins, if layout.rotates { t.particles + 2 } else { 0 });
-        let (row, spin) =
-            partner(t, step, kind, &rows[i as usize], *t.partner.at(slot), block.point as usize + lane);
+        let rows: &[Row] = t.table(t.particles.rows, t.particle_count + 2);
+        let spins: &[Row4] =
+            t.table(t.particles.spins, if layout.rotates { t.particle_count + 2 } else { 0 });
+        let (row, spin) = partner(
+            t,
+            step,
+            kind,
+            &rows[i as usize],
+            *t.contacts.partner.at(slot),
+            block.point as usize + lane,
+        );
         let MoveInputs { dt, ahead, .. } = t.drive;
         let inputs = StepInputs { dt, ahead, overlap_limit: t.overlap_limit, rows, spins, layout };
         let (mut history, mut active) = ([0.0; COLUMNS * BLOCK], [false]);
@@ -71,7 +78,7 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
         if *acted == 0 && !ends.may_act(&inputs) {
             return;
         }
-        let words = t.history.at::<f64>(block.history as usize + lane);
+        let words = t.contacts.history.at::<f64>(block.history as usize + lane);
         for c in 0..E::HISTORY {
             history[c * BLOCK] = *words.wrapping_add(c * BLOCK);
         }
@@ -133,14 +140,14 @@ unsafe fn partner(
             };
             return wall.row(position, radius, shift, centre);
         }
-        let mut row: Row = *t.rows.at(other as usize);
+        let mut row: Row = *t.particles.rows.at(other as usize);
         if kind.with == IMAGES {
             let shift: &Row = &*t.points.at(number);
             for a in 0..3 {
                 row[a] += shift[4 + a];
             }
         }
-        (row, if t.rotates != 0 { *t.spins.at(other as usize) } else { Row4::default() })
+        (row, if t.rotates != 0 { *t.particles.spins.at(other as usize) } else { Row4::default() })
     }
 }
 
@@ -152,21 +159,21 @@ unsafe fn partner(
 pub unsafe fn particle<const ROTATES: bool>(t: &DeviceTables, step: u32, k: usize) {
     // SAFETY: by contract; this thread alone writes to the rows of its particle.
     unsafe {
-        if k >= t.particles as usize || t.is_over(step) {
+        if k >= t.particle_count as usize || t.is_over(step) {
             return;
         }
-        let (from, to): (u32, u32) = (*t.starts.at(k), *t.starts.at(k + 1));
+        let (from, to): (u32, u32) = (*t.contacts.starts.at(k), *t.contacts.starts.at(k + 1));
         let (mut forces, mut torques) = ([0.0; FORCE_AND_MOMENT], [0.0; TORQUE]);
         // Those of its own tile first, then those that arrive from elsewhere, as in `Sums`.
         let own: u32 = *t.tiles.at(k / t.tile as usize);
         let mut arrivals = 0;
         while from + arrivals < to
-            && (*t.entries.at::<SlotEnd>((from + arrivals) as usize)).slot() < own as usize
+            && (*t.contacts.entries.at::<SlotEnd>((from + arrivals) as usize)).slot() < own as usize
         {
             arrivals += 1;
         }
         for entry in (from + arrivals..to).chain(from..from + arrivals) {
-            let end: SlotEnd = *t.entries.at(entry as usize);
+            let end: SlotEnd = *t.contacts.entries.at(entry as usize);
             let slot = end.slot();
             if *t.acts.at::<u8>(slot) == 0 {
                 continue;
@@ -184,14 +191,19 @@ pub unsafe fn particle<const ROTATES: bool>(t: &DeviceTables, step: u32, k: usiz
                 accumulate(&mut torques, &row, end);
             }
         }
-        let row: &mut Row = &mut *t.rows.at(k);
+        let row: &mut Row = &mut *t.particles.rows.at(k);
         let sums = WrenchSlices { forces: &forces, torques: if t.torques != 0 { &torques } else { &[] } };
         let sums = WrenchSums { first: 0, layout: t.layout(), sums };
         let sum: Sum<Each> = sums.sum::<f64, Each, ROTATES>(0, row[3]);
         let mover = Mover::<Each>::new(&t.drive);
-        let found = mover.advance(row, &mut *t.acceleration.at(k), &*t.home.at(k), &sum);
+        let found = mover.advance(row, &mut *t.particles.acceleration.at(k), &*t.particles.home.at(k), &sum);
         if ROTATES {
-            mover.turn(row, &mut *t.spins.at(k), &mut *t.angular_acceleration.at(k), &sum);
+            mover.turn(
+                row,
+                &mut *t.particles.spins.at(k),
+                &mut *t.particles.angular_acceleration.at(k),
+                &sum,
+            );
         }
         for (place, found) in [(1, found.left_margin), (2, found.too_fast)] {
             if found {

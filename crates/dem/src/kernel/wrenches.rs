@@ -92,6 +92,12 @@ impl SlotEnd {
         (self.0 >> 1) as usize
     }
 
+    /// Its place in the order of slots, of one contact the first particle first.
+    #[inline(always)]
+    pub fn order(self) -> u32 {
+        self.0
+    }
+
     /// Whether the particle is the second of the contact.
     #[inline(always)]
     pub fn is_second(self) -> bool {

@@ -2,10 +2,10 @@
 
 use crate::model::{Kind, Model, With};
 use crate::neighbours::{LISTED_FEW, NeighbourLists, Segment, Slots};
+use crate::space::images::{Image, Periods};
 use crate::state::{ContactColumns, State};
 use crate::threads::share;
 use crate::walls::WallBody;
-use crate::walls::images::{Image, Periods};
 
 /// Lists and columns of contacts as they were before.
 pub struct OldContacts {

@@ -8,7 +8,6 @@ use crate::space::cell::ImageOf;
 use crate::space::search::tile;
 use crate::threads::share;
 use crate::walls::WallBody;
-use std::ops::Range;
 
 /// Contacts of one kind to be listed, by first particle.
 #[derive(Debug, Clone, Default)]
@@ -39,26 +38,41 @@ impl Slots {
         particles: usize,
         layout: Layout,
     ) -> Slots {
+        let here: Vec<usize> = images.iter().map(|list| list.i.len()).collect();
+        let both = |[here, later]: &[List; 2]| [here.i.len(), later.i.len()];
+        let counts = tiles.iter().map(|tile| tile.iter().map(both).collect());
+        let mut new = Slots::laid_out(kinds, &here, counts, particles, layout);
+        let end = new.end();
+        new.i.reserve(end);
+        new.partner.reserve(end);
+        images.into_iter().chain(tiles.into_iter().flatten().flatten()).for_each(|list| new.append(&list));
+        new.index_arrivals();
+        new
+    }
+
+    /// Segments of so many contacts: of images by kind, then of each tile by kind, with particles of the tile and of later ones. They have no contacts yet.
+    pub fn laid_out(
+        kinds: &[Kind],
+        images: &[usize],
+        tiles: impl Iterator<Item = Vec<[usize; 2]>>,
+        particles: usize,
+        layout: Layout,
+    ) -> Slots {
         let mut new = Slots { new: true, particles, tile: tile(particles), ..Slots::default() };
-        let lists = images.iter().chain(tiles.iter().flatten().flatten());
-        let most: usize = lists.map(|l| l.i.len() + BLOCK).sum();
-        new.i.reserve(most);
-        new.partner.reserve(most);
-        let (mut history, mut rows, mut kept) = (0, 0, 0);
-        let mut put = |kind: usize, later: bool, list: List, new: &mut Slots| {
-            let len = list.i.len();
+        let (mut first, mut history, mut rows, mut kept) = (0, 0, 0, 0);
+        let mut put = |kind: usize, later: bool, len: usize, new: &mut Slots| {
             if len == 0 {
                 return;
             }
-            let slots = new.append(&list);
-            let padded = slots.len();
-            let with = kinds[kind].with;
+            let padded = len.next_multiple_of(BLOCK);
+            let (with, slots) = (kinds[kind].with, first..first + padded);
             new.segments.push(Segment { kind, with, slots, len, later, history, rows, kept });
+            first += padded;
             history += padded * layout.history(kinds[kind].kernel.columns());
             rows += if with == With::Particles { 0 } else { padded };
             kept += if later || with == With::Images { padded } else { 0 };
         };
-        images.into_iter().enumerate().for_each(|(kind, list)| put(kind, false, list, &mut new));
+        images.iter().enumerate().for_each(|(kind, &len)| put(kind, false, len, &mut new));
         for tile in tiles {
             new.tiles.push(new.segments.len());
             for (kind, [here, later]) in tile.into_iter().enumerate() {
@@ -70,23 +84,26 @@ impl Slots {
         new.history = history;
         let largest = new.segments.iter().filter(|s| s.with != With::Particles);
         new.count = (0..largest.map(|s| s.slots.len()).max().unwrap_or(0) as u32).collect();
-        new.index_arrivals();
         new
     }
 
-    /// Adds the contacts of a list, filled up to whole blocks; the slots that they get.
-    fn append(&mut self, list: &List) -> Range<usize> {
-        let first = self.i.len();
+    /// Fills all slots, which have been laid out: both ends of each contact, and the images of those that are with one.
+    pub fn fill(&mut self, i: Vec<u32>, partner: Vec<u32>, image: Vec<ImageOf>) {
+        (self.i, self.partner, self.image) = (i, partner, image);
+        self.index_arrivals();
+    }
+
+    /// Adds the contacts of a list, filled up to whole blocks.
+    fn append(&mut self, list: &List) {
         self.i.extend(&list.i);
         self.partner.extend(&list.partner);
         self.image.extend(&list.image);
-        let slots = first..first + list.i.len().next_multiple_of(BLOCK);
-        self.i.resize(slots.end, self.particles as u32);
-        self.partner.resize(slots.end, self.particles as u32 + 1);
+        let end = self.i.len().next_multiple_of(BLOCK);
+        self.i.resize(end, self.particles as u32);
+        self.partner.resize(end, self.particles as u32 + 1);
         if !list.image.is_empty() {
-            self.image.resize(slots.end, [0; 3]);
+            self.image.resize(end, [0; 3]);
         }
-        slots
     }
 
     /// What arrives at each tile.

@@ -17,8 +17,8 @@ pub use slices::{Computed, RestingTile, SlotRun, StepColumns, TileSlice};
 pub use slots::{Disturber, Segment, Slots};
 
 use crate::simd::{Row, Row4};
+use crate::space::images::Periods;
 use crate::state::SpareColumns;
-use crate::walls::images::Periods;
 
 /// Neighbour lists.
 #[derive(Default)]

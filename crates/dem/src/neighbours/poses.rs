@@ -2,9 +2,9 @@
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
+use crate::space::images::{Periods, WallImages};
 use crate::state::State;
 use crate::walls::WallBody;
-use crate::walls::images::{Periods, WallImages};
 use geom::Vec3;
 use geom::motion::Pose;
 

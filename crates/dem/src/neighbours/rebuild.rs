@@ -6,11 +6,12 @@ use crate::neighbours::poses::{around, periods_travelled, pose_listed, shift_int
 use crate::neighbours::{List, NeighbourLists, OldContacts, Slots, StepColumns};
 use crate::setup::Zone;
 use crate::simd::{Aligned, Row4};
-use crate::space::search::{ImagePair, Pair, Search, margin, next_skin, pairs, tile};
+use crate::space::images::Periods;
+use crate::space::margins::{MarginInputs, margin, touched};
+use crate::space::search::{ImagePair, Pair, Search, next_skin, pairs, tile};
 use crate::state::ledger::wrap_in_ledger;
 use crate::state::{ContactColumns, ListStatus, State, WrenchColumns};
 use crate::threads::{change, each, share};
-use crate::walls::images::Periods;
 use geom::Vec3;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -32,11 +33,7 @@ impl KindTable {
 
 /// Sorts particles, lists contacts, and carries their history over.
 pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
-    // Lists that are outdated for another reason say nothing of the skin.
-    if model.setup.skin.is_none() && state.listing.status != ListStatus::Outdated {
-        let held = state.steps - state.listing.step;
-        state.listing.skin = next_skin(state.listing.skin, held, model.mean_radius).max(model.reach);
-    }
+    adapt_skin(model, state);
     let wraps = wrap(model, state);
     let wall_periods = std::mem::take(&mut lists.wall_periods);
     state.servos.iter_mut().for_each(|p| p.listed = p.shift);
@@ -75,6 +72,15 @@ pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     state.listing.rebuilds += 1;
 }
 
+/// Wider or narrower lists, by how long the last ones held.
+pub fn adapt_skin(model: &Model, state: &mut State) {
+    // Lists that are outdated for another reason say nothing of the skin.
+    if model.setup.skin.is_none() && state.listing.status != ListStatus::Outdated {
+        let held = state.steps - state.listing.step;
+        state.listing.skin = next_skin(state.listing.skin, held, model.mean_radius).max(model.reach);
+    }
+}
+
 /// Particles that have left the box through a periodic face come back through the other. Returns by how many periods each
 /// was moved; none where nothing is periodic.
 fn wrap(model: &Model, state: &mut State) -> Vec<Periods> {
@@ -109,20 +115,28 @@ fn wrap(model: &Model, state: &mut State) -> Vec<Periods> {
     })
 }
 
+/// What the margins of particles are made of that are listed now.
+pub fn margins(model: &Model, state: &State) -> MarginInputs {
+    MarginInputs {
+        skin: state.listing.skin,
+        horizon: model.horizon * model.dt,
+        gravity: model.setup.gravity.norm(),
+        most: model.mean_radius,
+        ahead: model.ahead(),
+    }
+}
+
 /// Notes the position and the margin of each particle that stays, and sorts them.
 fn space_order(model: &Model, state: &mut State) -> (Search, Vec<u32>) {
-    let (horizon, gravity) = (model.horizon * model.dt, model.setup.gravity.norm());
-    let State { particles: p, zones, listing, .. } = state;
-    let skin = listing.skin;
-    let (rows, ahead) = (&p.rows, model.ahead());
+    let margins = margins(model, state);
+    let State { particles: p, zones, .. } = state;
+    let rows = &p.rows;
     change(&mut p.home, |k, home| {
         if zones.is_gone(k) {
             return;
         }
         let row = &rows[k];
-        let speed = row.velocity().norm();
-        let way = horizon * (speed + 0.5 * gravity * horizon);
-        *home = Row4([row[0], row[1], row[2], margin(skin, way, model.mean_radius) + ahead * speed]);
+        *home = Row4([row[0], row[1], row[2], margins.of(&row.velocity())]);
     });
     let stay: Vec<u32> = (0..p.len() as u32).filter(|&k| !zones.is_gone(k as usize)).collect();
     let points = each(stay.len(), |n| p.position(stay[n] as usize));
@@ -173,7 +187,18 @@ fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, s
     });
     let images = list_images(model, state, &search);
     drop(search);
-    lists.slots = Slots::new(&model.kinds, images, tiles, count, model.layout());
+    put(model, state, lists, Slots::new(&model.kinds, images, tiles, count, model.layout()));
+}
+
+/// Takes lists that a device has made, for the particles where they were listed; their contacts have no history yet.
+pub fn take_lists(model: &Model, state: &mut State, lists: &mut NeighbourLists, slots: Slots) {
+    put(model, state, lists, slots);
+    allocate(model, state, lists);
+}
+
+/// Puts lists in place, with columns for their contacts.
+fn put(model: &Model, state: &mut State, lists: &mut NeighbourLists, slots: Slots) {
+    lists.slots = slots;
     lists.step = StepColumns::new(&lists.slots, model.kinds.iter().any(|k| k.kernel.rotates()));
     let history = Aligned::zeros(lists.slots.history);
     state.contacts = ContactColumns { layout: model.layout(), history, ..ContactColumns::default() };
@@ -190,10 +215,9 @@ fn list_contacts(model: &Model, state: &mut State, lists: &mut NeighbourLists, s
 /// Whether two particles touched where they were listed.
 fn touch(state: &State, &(i, j): &Pair) -> bool {
     let p = &state.particles;
-    let [a, b] = [i, j].map(|k| (&p.home[k as usize], p.rows[k as usize][3]));
-    let square: f64 = (0..3).map(|x| (a.0[x] - b.0[x]) * (a.0[x] - b.0[x])).sum();
-    let reach = a.1 + b.1;
-    square < reach * reach
+    let of = |k: u32| (&p.home[k as usize], p.rows[k as usize][3]);
+    let [a, b] = [of(i), of(j)];
+    touched([a.0, b.0], [a.1, b.1])
 }
 
 fn list_walls(

@@ -57,7 +57,7 @@ impl Segment {
 }
 
 /// The slots of all listed contacts.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Slots {
     /// In order of their slots.
     pub segments: Vec<Segment>,
@@ -95,6 +95,11 @@ impl Slots {
     /// Number of contacts.
     pub fn len(&self) -> usize {
         self.segments.iter().map(|s| s.len).sum()
+    }
+
+    /// Number of slots of all segments.
+    pub fn end(&self) -> usize {
+        self.segments.last().map_or(0, |s| s.slots.end)
     }
 
     /// Rows of wrenches that are kept for other tiles.

@@ -3,6 +3,7 @@
 use super::Simulation;
 use crate::device::{Device, DeviceError, DeviceTimes, Stepper};
 use crate::forces::sweep;
+use crate::kernel::device_tables::DeviceFlags;
 use crate::model::{Halt, Model};
 use crate::neighbours::poses::pose_in_box;
 use crate::neighbours::{NeighbourLists, rebuild};
@@ -11,10 +12,6 @@ use crate::passes::touching::position_before;
 use crate::simulation::step::{check_overlap, refresh_lists};
 use crate::state::{Forces, ListStatus, State};
 use geom::Vec3;
-use std::time::{Duration, Instant};
-
-/// How long a device computes before the state is fetched: what stops a run is asked in between. No result depends on it.
-const PATIENCE: Duration = Duration::from_secs(1);
 
 impl Simulation {
     /// Has the steps made by a device from now on, with the same bits.
@@ -36,65 +33,100 @@ impl Simulation {
         self.device.as_ref().map(|stepper| stepper.times)
     }
 
-    /// Makes steps: one here; on a device as many as it makes in about a second, until step `last` at most.
+    /// Makes steps: one here; on a device all until step `last`, or until `goes_on`, which is asked with their number every few dozen of them, says no.
     ///
     /// # Errors
     /// As [`Simulation::step`]; a device that fails, with the state from before.
-    pub fn advance(&mut self, last: u64) -> Result<(), Halt> {
+    pub fn advance(&mut self, last: u64, goes_on: &mut dyn FnMut(u64) -> bool) -> Result<(), Halt> {
         let Some(mut stepper) = self.device.take() else { return self.step() };
-        let outcome = self.advance_on(&mut stepper, last);
+        let outcome = self.advance_on(&mut stepper, last, goes_on);
         self.device = Some(stepper);
         outcome
     }
 
-    fn advance_on(&mut self, stepper: &mut Stepper, last: u64) -> Result<(), Halt> {
-        let start = Instant::now();
+    fn advance_on(
+        &mut self,
+        stepper: &mut Stepper,
+        last: u64,
+        goes_on: &mut dyn FnMut(u64) -> bool,
+    ) -> Result<(), Halt> {
         loop {
             refresh_lists(&self.model, &mut self.state, &mut self.lists)?;
             if self.state.forces == Forces::Known || !self.state.starting.is_empty() {
                 self.step()?;
             } else {
-                self.steps_on(stepper, last, start)?;
+                return self.steps_on(stepper, last.max(self.state.steps + 1), goes_on);
             }
-            if self.state.steps >= last || start.elapsed() >= PATIENCE {
+            if self.state.steps >= last || !goes_on(self.state.steps) {
                 return Ok(());
             }
         }
     }
 
-    /// Steps on the device until it needs this processor.
-    fn steps_on(&mut self, stepper: &mut Stepper, last: u64, start: Instant) -> Result<(), Halt> {
+    /// Steps on the device, which makes its own lists, until something is due here.
+    fn steps_on(
+        &mut self,
+        stepper: &mut Stepper,
+        last: u64,
+        goes_on: &mut dyn FnMut(u64) -> bool,
+    ) -> Result<(), Halt> {
         let Simulation { model, state, lists, .. } = self;
-        let time = state.time();
-        let failed = |error: DeviceError| Halt::Device { time, what: error.to_string() };
-        if lists.slots.new {
-            sweep::find_contact_points(model, state, lists);
-        }
-        stepper.send(model, state, lists).map_err(failed)?;
-        let most = rebuild::steps_of_walls(model, state, last.saturating_sub(state.steps).max(1));
-        let poses = |step: u64| {
-            let time = (state.steps + step) as f64 * state.dt;
-            let pose = |w: usize| model.walls[w].pose(&pose_in_box(model, state, lists, w, time));
-            (0..model.walls.len()).map(pose).collect()
-        };
-        let found = stepper.run(most, poses, || start.elapsed() < PATIENCE).map_err(failed)?;
-        let steps = state.steps + found.steps;
-        stepper.fetch(state, steps).map_err(failed)?;
-        (state.steps, state.forces, lists.slots.new) = (steps, Forces::Due, false);
-        // The device does not say which blocks act.
-        lists.step.active.fill(true);
-        if found.flags.left_margin != 0 {
-            state.listing.outdate(ListStatus::MarginLeft);
-        }
-        if found.flags.deep != 0 {
+        let failed = |time: f64, error: DeviceError| Halt::Device { time, what: error.to_string() };
+        let (begun, listing, wall_periods) = (state.steps, state.listing, lists.wall_periods.clone());
+        let outcome = stepper
+            .send(model, state, lists)
+            .and_then(|()| run(stepper, model, state, lists, last, goes_on))
+            .and_then(|flags| stepper.fetch(model, state, lists).map(|()| flags));
+        let flags = outcome.map_err(|error| {
+            // The columns are still those of then.
+            stepper.forget();
+            (state.steps, state.listing, lists.wall_periods) = (begun, listing, wall_periods);
+            failed(state.time(), error)
+        })?;
+        if flags.deep != 0 {
             find_points_before(model, state, lists);
             let all = 0..lists.slots.segments.len();
             check_overlap(model, state, lists, &[all], true)?;
         }
-        if found.flags.too_fast != 0 {
+        if flags.too_fast != 0 {
             guards::check_motion(model, state)?;
         }
         Ok(())
+    }
+}
+
+/// Steps and lists of a device; what the last step found. Of the state it brings everything up to date but the columns.
+fn run(
+    stepper: &mut Stepper,
+    model: &Model,
+    state: &mut State,
+    lists: &mut NeighbourLists,
+    last: u64,
+    goes_on: &mut dyn FnMut(u64) -> bool,
+) -> Result<DeviceFlags, DeviceError> {
+    loop {
+        let (before, most) = (state.steps, rebuild::steps_of_walls(model, state, last - state.steps));
+        let poses = |step: u64| {
+            let time = (before + step) as f64 * state.dt;
+            let pose = |w: usize| model.walls[w].pose(&pose_in_box(model, state, lists, w, time));
+            (0..model.walls.len()).map(pose).collect()
+        };
+        let mut wanted = true;
+        let found = stepper.run(most, poses, |done| {
+            wanted = goes_on(before + done);
+            wanted
+        })?;
+        state.steps += found.steps;
+        if found.flags.left_margin != 0 {
+            state.listing.outdate(ListStatus::MarginLeft);
+        }
+        let guarded = found.flags.deep != 0 || found.flags.too_fast != 0;
+        if guarded || state.steps >= last || !wanted {
+            return Ok(found.flags);
+        }
+        if rebuild::is_due(model, state) {
+            stepper.relist(model, state, lists)?;
+        }
     }
 }
 

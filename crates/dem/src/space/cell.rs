@@ -5,6 +5,10 @@
 //! affine flow:            u(x) = (h'/h) (x − x₀)     x₀: the centre of the cell, which stays
 //! ```
 
+#[cfg(target_arch = "nvptx64")]
+use crate::float::Float as _;
+use alloc::vec;
+use alloc::vec::Vec;
 use geom::Vec3;
 
 /// How many periods an image is away, along each axis.
@@ -21,6 +25,7 @@ pub struct Cell {
 
 impl Cell {
     /// One whose lengths stay.
+    #[inline(always)]
     pub fn at_rest(range: [Option<(f64, f64)>; 3]) -> Cell {
         Cell { range, speed: Vec3::zeros() }
     }
@@ -31,17 +36,20 @@ impl Cell {
     }
 
     /// Lengths along x, y, z [m]; 0 along an open axis.
+    #[inline(always)]
     pub fn lengths(&self) -> Vec3 {
         Vec3::from(self.range.map(|p| p.map_or(0.0, |(lo, hi)| hi - lo)))
     }
 
     /// By how many lengths a position is beyond the cell.
+    #[inline(always)]
     pub fn away(&self, p: &Vec3) -> Vec3 {
         let of = |a: usize| self.range[a].map_or(0.0, |(lo, hi)| ((p[a] - lo) / (hi - lo)).floor());
         Vec3::from([0, 1, 2].map(of))
     }
 
     /// A position, brought back into the cell.
+    #[inline(always)]
     pub fn wrapped(&self, p: Vec3) -> Vec3 {
         p - self.lengths().component_mul(&self.away(&p))
     }

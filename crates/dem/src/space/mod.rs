@@ -1,7 +1,8 @@
-//! Positions and rotations: the search for neighbours, turning by a vector, spheres and periods.
+//! Positions and rotations: the search for neighbours and their margins, turning by a vector, spheres, periods and images.
 
-#[cfg(not(target_arch = "nvptx64"))]
 pub mod cell;
+pub mod images;
+pub mod margins;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod rotation;
 #[cfg(not(target_arch = "nvptx64"))]

@@ -142,6 +142,11 @@ impl Particles {
         if rayon::current_num_threads() <= FEW_THREADS {
             *spare = SpareColumns::default();
         }
+        self.take_names(order);
+    }
+
+    /// The same of what no step changes: numbers and materials.
+    pub fn take_names(&mut self, order: &[u32]) {
         select(&mut self.id, order, 0);
         select(&mut self.material, order, 0);
     }

@@ -2,19 +2,18 @@
 //!
 //! A wall sphere is its centre and radius; a plane or a triangle is the point of it that is nearest to the particle, with radius
 //! 0. A wall has no mass of its own in a contact (1/m = 0, so m* = m_i). Across a periodic face its images act: the partner
-//! of a contact tells part and image ([`images`]).
+//! of a contact tells part and image ([`crate::space::images`]).
 //!
 //! The surface of a belt moves on its wall, which stays where it is: at a contact with the normal n a contact point has the velocity of the wall
 //! plus v_s − (v_s·n) n, with v_s that of the surface there. So a belt drives along itself and never pushes.
 
-pub(crate) mod images;
 pub(crate) mod seams;
 
 use crate::kernel::wall_point::WallPose;
 use crate::setup::{Mount, Servo, Wall, WallShape};
 use crate::simd::{Row, Row4};
+use crate::space::images::Image;
 use crate::space::sphere::{FAR, is_away};
-use crate::walls::images::Image;
 use crate::walls::seams::{HistorySlots, Nearest};
 use geom::motion::{Pose, SurfaceMotion};
 use geom::{Boxes, Grid, Motion, Plane, Vec3};
@@ -201,10 +200,20 @@ impl WallBody {
         WallPose::new(*pose, self.belt.as_ref().map(|belt| pose.surface(belt)))
     }
 
-    /// Centre [m] and radius [m] of wall sphere `part`, as at t = 0; `None` of other walls.
-    pub fn sphere(&self, part: u32) -> Option<(Vec3, f64)> {
-        let Surface::Spheres { centres, radii, .. } = &self.surface else { return None };
-        centres.get(part as usize).copied().zip(radii.get(part as usize).copied())
+    /// Centre [m] and radius [m] of each wall sphere as at t = 0, in the order of the grid that they are found by; `None` of other walls.
+    pub fn sorted_spheres(&self) -> Option<(impl Iterator<Item = (Vec3, f64)>, &Grid)> {
+        let Surface::Spheres { centres, radii, grid, .. } = &self.surface else { return None };
+        Some((centres.iter().copied().zip(radii.iter().copied()), grid))
+    }
+
+    /// Largest radius of its spheres [m]; 0 of other walls.
+    pub fn largest(&self) -> f64 {
+        if let Surface::Spheres { largest, .. } = &self.surface { *largest } else { 0.0 }
+    }
+
+    /// As a plane at t = 0; `None` of other walls.
+    pub fn plane(&self) -> Option<&Plane> {
+        if let Surface::Plane(plane) = &self.surface { Some(plane) } else { None }
     }
 
     /// Contact points of one particle, whose position and radius are `row`, on the wall in a pose: `partners` are all that it may touch.

@@ -15,17 +15,20 @@ pub struct Image(pub u32);
 pub type Periods = [i32; 3];
 
 impl Image {
+    #[inline(always)]
     fn of(periods: Periods) -> Image {
         let [x, y, z] = periods.map(|n| n.rem_euclid(3) as u32);
         Image(x + 3 * y + 9 * z)
     }
 
+    #[inline(always)]
     fn periods(self) -> Periods {
         let digit = |d: u32| [0, 1, -1][(d % 3) as usize];
         [digit(self.0), digit(self.0 / 3), digit(self.0 / 9)]
     }
 
     /// Where the image is, away from the wall [m].
+    #[inline(always)]
     pub fn shift(self, period: &Vec3) -> Vec3 {
         if self.0 == 0 {
             return Vec3::zeros();
@@ -35,6 +38,7 @@ impl Image {
     }
 
     /// Which image this was before a particle was moved, and its wall counted back, by so many periods more.
+    #[inline(always)]
     pub fn before(self, particle: Periods, wall: Periods) -> Image {
         let now = self.periods();
         Image::of([0, 1, 2].map(|a| now[a] - particle[a] + wall[a]))
@@ -42,14 +46,20 @@ impl Image {
 }
 
 /// Which images of a wall particles may touch.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
 pub struct WallImages {
+    /// Lengths of the box [m]; 0 along an open axis.
     pub period: Vec3,
+    /// Lowest corner of the wall [m]; NaN along an axis that lies in it.
     pub lo: Vec3,
+    /// Highest corner [m].
     pub hi: Vec3,
 }
 
 impl WallImages {
     /// Images near a particle at `p` that reaches so far [m]; the wall itself first.
+    #[inline(always)]
     pub fn near(&self, p: &Vec3, reach: f64) -> impl Iterator<Item = (Image, Vec3)> {
         let mut digits = [(1, [0, 0, 0]); 3];
         for a in 0..3 {
