@@ -136,6 +136,32 @@ END
         printf "A bond-step reads %.0f bytes and writes 112 of them, so memory alone would allow %.0f on one thread; its %d adds and multiplies, %d divisions and %d roots would allow %.0f.\n", bytes, 1e3 * limit / (bytes + 112), operations, divisions, roots, arithmetic }' limits-1 | tee bonds
 }
 
+# Grains of 4 mm around six of 80 mm, settled from a loose filling: two sizes, 1 : 20. Prints their number and the contacts of each.
+two_sizes() {
+    sed '/^\[\[particles\]\]/,$d; s|^high = .*|high = [0.24, 0.24, 0.504]|' "$here/scenes/pile.toml" > sizes.toml
+    cp sizes.toml loose.toml
+    for grains in "0.08 6" "0.004 25000"; do
+        printf '[[fill]]\nmaterial = "grain"\nshape = "box:0,0,0,0.24,0.24,0.2"\ndiameter = %s\ncount = %s\n' $grains
+    done >> loose.toml
+    printf '[[particles]]\nsource = "settled.mcap"\n' >> sizes.toml
+    printf '[guards]\noverlap = 0.9\n[[wall]]\nname = "floor"\nmaterial = "floor"\nplane = "0,0,0,0,0,1"\n' | tee -a sizes.toml >> loose.toml
+    dem-run loose.toml -q --set contact.0.restitution=0.5 --set time.dt=auto --set output.every=0.3 --until 0.3 -o settled.mcap
+    dem-run sizes.toml -q --set output.contacts=true --until 1e-5 -o touch.mcap
+    dem-measure touch.mcap --contacts --last -q | awk -F, 'END { printf "%d %.3f\n", $2, $3 / $2 }'
+}
+
+# 60 stones of 7 cm as clumps of 100 spheres, settled from a loose filling.
+stones() {
+    stone-clump "$here/../sample-data/stones/quarry.ply" --spheres 100 -q -o stone.toml
+    sed '/^\[\[particles\]\]/,$d; s|^high = .*|high = [0.45, 0.45, 1.2]|' "$here/scenes/pile.toml" > stones.toml
+    printf '[guards]\noverlap = 0.9\n[[wall]]\nname = "floor"\nmaterial = "floor"\nplane = "0,0,0,0,0,1"\n' >> stones.toml
+    sed 's/^material = .*/material = "grain"/' stone.toml >> stones.toml
+    cp stones.toml loose.toml
+    printf '[[fill]]\nclump = "stone"\nscale = 0.5\nshape = "box:0,0,0,0.45,0.45,1.1"\ncount = 60\n' >> loose.toml
+    dem-run loose.toml -q --set contact.0.restitution=0.5 --set time.dt=auto --set output.every=0.6 --until 0.6 -o settled.mcap
+    printf '[[particles]]\nsource = "settled.mcap"\n' >> stones.toml
+}
+
 by_effect() {
     local grains x y kind touching listed rolling=(--set contact.0.rolling_resistance=0.1) twisting=(--set contact.0.twisting_resistance=0.1)
     read -r grains x y kind touching listed < <("$examples/tiles" "$sample" 50000 pile.ply)
@@ -161,6 +187,10 @@ spheres = [[0.0004, 0.0004, 0.0004, 0.0013], [0.0004, -0.0004, -0.0004, 0.0013],
 END
     # Bodies are smaller than the grains whose places they take: they fall onto each other first.
     warm=600 row "clumps of 4 spheres" clumps.toml $((4 * grains)) "–" 0 - "$rounds"
+    stones
+    row "clumps of 100 spheres" stones.toml 6000 "–" 0 - "$rounds"
+    read -r grains touching < <(two_sizes)
+    row "grains of two sizes, 1 : 20" sizes.toml "$grains" "$touching" 0 - "$rounds"
     read -r grains x y kind touching listed < <("$examples/tiles" "$sample" 50000 bed.ply 0.012)
     scene bed.toml bed.ply "$x" "$y" "$kind"
     row "bed of three layers on a plane" bed.toml "$grains" "$touching" "$listed" - "$rounds"
@@ -210,6 +240,8 @@ caption() {
             if (!n++) printf "\n"
             printf "With %s a step takes %.2f times the time of the row above and %.2f times its arithmetic.\n", $1, before / $2, allowed / $3
         } { before = $2; allowed = $3 }' allowed
+    awk -F' *[|] *' '{ if ($2 == "+ sliding friction") of = $6 * $5; if ($2 ~ /^bed|^the same|^grains of two/ && $5 > 0) all = all sprintf("%s %s: %.2f", all ? ";" : "", $2, of / ($6 * $5)) }
+        END { if (of && all) printf "\nTime of a listed contact, its share of the grain included, over that of the pile –%s.\n", all }' table
     awk '$1 > 5000 && !small { small = $2 } { large = $2; n = $1 } END {
         if (small && n >= 1e6) printf "\nA particle-step of %d grains costs %.2f times that of 10 000, on one thread.\n", n, small / large }' by-size
     awk '{ printf "\nWith frames of %d grains written to a file, the peak is %d bytes per grain. A frame written to a pipe, as here, is held in memory once more.\n", $1, $2 }' filed
