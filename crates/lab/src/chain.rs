@@ -121,13 +121,26 @@ impl Chain<'_> {
 
     /// Runs a scene, where its run is not there; its report.
     ///
-    /// A run that a guard has stopped is whole as a file: its report tells, also when it is used again.
+    /// A run that a guard has stopped is whole as a file: its report tells, also when it is used again. One that a signal has stopped goes on from
+    /// its checkpoint.
     pub(crate) fn dem_run(&self, name: &str) -> Result<Value> {
-        let (scene, run, report) = (format!("{name}.toml"), format!("{name}.mcap"), format!("{name}.json"));
-        let finished = |report: Value| report["stopped"].as_str() != Some(record::SIGNAL);
-        if !self.file(&run).exists() || !self.report(&report).is_ok_and(finished) {
+        let [scene, run, report] = ["toml", "mcap", "json"].map(|ending| format!("{name}.{ending}"));
+        let stopped = format!("{name}.stopped.mcap");
+        let by_signal = |report: &Value| report["stopped"].as_str() == Some(record::SIGNAL);
+        let made = self.report(&report).ok().filter(|_| self.file(&run).exists());
+        if made.as_ref().is_some_and(by_signal) {
+            let file = self.file(&run);
+            std::fs::rename(&file, self.file(&stopped)).map_err(LabError::file(&file, "cannot rename it"))?;
+        }
+        if made.as_ref().is_none_or(by_signal) {
             let threads = self.programs.threads.to_string();
-            self.start("dem-run", &[&scene, "--threads", &threads, "-q", "--report", &report, "-o", &run])?;
+            let mut words = vec![&*scene, "--threads", &threads, "-q", "--report", &report, "-o", &run];
+            if self.file(&stopped).exists() {
+                words.extend(["--resume", &stopped, "--whole"]);
+            }
+            self.start("dem-run", &words)?;
+            // Gone already, or never there.
+            let _ = std::fs::remove_file(self.file(&stopped));
         }
         let report = self.report(&report)?;
         match report["stopped"].as_str() {

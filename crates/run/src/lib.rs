@@ -5,10 +5,11 @@
 //! ```
 //!
 //! [`simulate`] is the loop; [`start`], [`write`] and [`stop`] are its beginning, its output and its early end. [`supply`] merges what comes
-//! in, [`schedule`] knows which steps are written, [`frames`] makes the tables, [`checkpoint`] saves and resumes. [`explain`] runs a part of a
+//! in, [`schedule`] knows which steps are written, [`frames`] makes the tables, [`checkpoint`] saves and resumes, [`earlier`] copies what a resumed run wrote before. [`explain`] runs a part of a
 //! scene to measure it. [`RunFile`] writes the same file for a run that another engine computes. Uses `scene` for the plan, `stages` for inlets and crossings, `record` for formats, `dem` for the engine.
 
 mod checkpoint;
+mod earlier;
 mod error;
 pub mod explain;
 mod fallen;
@@ -28,6 +29,7 @@ mod supply;
 mod write;
 
 pub use checkpoint::Checkpoint;
+pub use earlier::Earlier;
 pub use error::RunError;
 pub use fallen::Fallen;
 pub use file::RunFile;

@@ -1,6 +1,7 @@
 //! The run: steps, and what is written between them.
 
 use crate::checkpoint::Checkpoint;
+use crate::earlier::Earlier;
 use crate::error::{Ended, Result};
 use crate::fallen::Fallen;
 use crate::frames::WallHead;
@@ -87,6 +88,8 @@ pub struct Settings<W> {
     pub how: StreamOptions<W>,
     /// The state that it goes on from; `None`: t = 0.
     pub resume: Option<Checkpoint>,
+    /// What the run that goes on has written, to be written again; `None`: the file begins with the checkpoint.
+    pub earlier: Option<Earlier>,
     /// Whether the energy of each frame is computed for progress reports.
     pub watched: bool,
     /// Called between steps: whether the run is to end here, with a checkpoint.
@@ -163,6 +166,8 @@ pub(crate) struct Run<W: Write> {
     pub written: Written,
     /// Step that the run began with.
     pub first: u64,
+    /// Whether what is due in that step was written before the run was resumed.
+    pub begins_written: bool,
     pub crossings: Vec<Crossing>,
     /// Step of the last sample of paths, or of the checkpoint that was resumed.
     pub sampled: Option<u64>,

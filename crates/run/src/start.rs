@@ -42,7 +42,8 @@ impl<W: Write> Run<W> {
         written.watched = settings.watched;
         written.below = below;
         let mut writer = Writer::compressed(out, &settings.provenance, settings.how)?;
-        for (name, record) in head.records([sim.dt(), sim.time()], &schedule, written.sampling) {
+        let begins = settings.earlier.as_ref().map_or(sim.time(), |earlier| earlier.start);
+        for (name, record) in head.records([sim.dt(), begins], &schedule, written.sampling) {
             writer.metadata(name, record)?;
         }
         let first = sim.steps();
@@ -55,6 +56,7 @@ impl<W: Write> Run<W> {
             schedule,
             written,
             first,
+            begins_written: first > 0,
             crossings: Vec::new(),
             paths: Vec::new(),
             frame_energy: None,
@@ -64,7 +66,14 @@ impl<W: Write> Run<W> {
             checkpoints: 0,
         };
         let warnings: Vec<String> = warnings.iter().map(|text| in_file(scene, text)).collect();
-        run.write_walls(&surfaces, &warnings)?;
+        match settings.earlier {
+            None => run.write_walls(&surfaces, &warnings)?,
+            Some(earlier) => {
+                let has_frame = earlier.copy(&mut run.writer, run.sim.time())?;
+                run.begins_written = has_frame || !run.schedule.is_frame(first);
+                run.writer.flush_chunk()?;
+            }
+        }
         Ok(run)
     }
 }

@@ -35,7 +35,7 @@ impl<W: Write> Run<W> {
 
     /// Writes what is due after `step` steps. A run that was resumed does not repeat what it was resumed from.
     pub(crate) fn write_due(&mut self, step: u64) -> Result<(), Ended> {
-        let resumed = step == self.first && step > 0;
+        let resumed = step == self.first && self.begins_written;
         let (frame, checkpoint) = (self.schedule.is_frame(step), self.schedule.is_checkpoint(step));
         if resumed || frame || checkpoint {
             self.saved_at = self.sim.time();
@@ -155,7 +155,7 @@ impl<W: Write> Run<W> {
     /// Writes what broke since the last time, and notes bonds that were due and found no pair. What broke at the instant that a run is resumed from was written
     /// with the frame of that instant.
     fn write_cracks(&mut self) -> Result<()> {
-        let told = self.first > 0 && self.schedule.is_frame(self.first);
+        let told = self.begins_written && self.schedule.is_frame(self.first);
         let told = if told { self.first as f64 * self.sim.dt() } else { f64::NEG_INFINITY };
         let mut cracks = self.sim.take_cracks();
         cracks.retain(|crack| crack.time > told);

@@ -190,6 +190,7 @@ pub fn run(how: Compression, scene: &str) -> Vec<u8> {
         provenance: Provenance::default(),
         how: how.into(),
         resume: None,
+        earlier: None,
         watched: false,
         stop: || false,
         device: None,

@@ -7,6 +7,7 @@ mod fallen;
 mod foretold;
 mod settled;
 mod stopped;
+mod whole;
 
 use grainpipe_tests::scenes::{Head, RUBS, folder};
 use grainpipe_tests::tools::{line, program, succeed, tool};

@@ -77,3 +77,33 @@ fn listed_specimens_are_made_by_their_lines() {
         stdin.stderr
     );
 }
+
+/// A run that a signal has stopped goes on from its checkpoint, and everything is as if it had not been stopped.
+#[test]
+fn a_specimen_that_was_stopped_goes_on_where_it_was() {
+    let lab = folder(&[("sand.toml", SAND.to_owned())]);
+    let path = lab.path();
+    let words = |out: &'static str, dir: &'static str| [SHEAR, &["-q", "--dir", dir, "-o", out]].concat();
+    succeed(path, "lab-test", &words("once.csv", "e"));
+    for run in ["prepare", "test"] {
+        let specimen = path.join("d/stress=1000,seed=0");
+        let child = Command::new(program("lab-test")).current_dir(path).args(words("a.csv", "d")).spawn();
+        let mut child = child.unwrap();
+        while !specimen.join(format!("{run}.mcap.part")).exists() {
+            assert!(child.try_wait().unwrap().is_none(), "it has ended");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+        assert!(!child.wait().unwrap().success() && !path.join("a.csv").exists());
+        let report = fs::read_to_string(specimen.join(format!("{run}.json"))).unwrap();
+        assert!(report.contains("by a signal"), "{report}");
+    }
+    succeed(path, "lab-test", &words("a.csv", "d"));
+    assert!(fs::read(path.join("once.csv")).unwrap() == fs::read(path.join("a.csv")).unwrap());
+    let made = fs::read_to_string(path.join("d/stress=1000,seed=0/commands.sh")).unwrap();
+    for run in ["prepare", "test"] {
+        let resumed = format!("-o {run}.mcap --resume {run}.stopped.mcap --whole");
+        assert_eq!(made.matches(&resumed).count(), 1, "{made}");
+        assert!(!path.join(format!("d/stress=1000,seed=0/{run}.stopped.mcap")).exists());
+    }
+}

@@ -100,8 +100,15 @@ fn written(scene: &str) -> String {
     // Beyond what a scene may say: they sleep as they fall.
     plan.setup.sleep.iter_mut().for_each(|sleep| sleep.wake *= 10.0);
     let (provenance, how) = (Provenance::default(), Compression::None.into());
-    let settings =
-        run::Settings { provenance, how, resume: None, watched: false, stop: || false, device: None };
+    let settings = run::Settings {
+        provenance,
+        how,
+        resume: None,
+        earlier: None,
+        watched: false,
+        stop: || false,
+        device: None,
+    };
     let (_, run) = run::run(&scene, plan, Vec::new(), settings, &mut |_| ()).expect("it runs");
     layout(&run::Checkpoint::last("run", &run[..]).expect("there is one")).expect("it has a layout")
 }

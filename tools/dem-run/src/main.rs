@@ -13,7 +13,7 @@ use device::Accelerator;
 use misplaced::MCAP;
 use parts::Saved;
 use record::SIGNAL;
-use run::{Checkpoint, Progress, RunError, Settings, run};
+use run::{Checkpoint, Earlier, Progress, RunError, Settings, run};
 use scene::advice::DEVICE_FAILED;
 use scene::{Input, Plan, Scene, SceneError, SceneSetupError};
 use std::fs::File;
@@ -56,6 +56,9 @@ struct Args {
     /// Resume a run from its last checkpoint
     #[arg(long, value_name = "RUN.mcap")]
     resume: Option<Source>,
+    /// With --resume: begin the output with what that run has written until its checkpoint, so that it holds the whole run
+    #[arg(long)]
+    whole: bool,
     /// Have the steps made by a GPU, with the same bits: cuda, or cuda:1 for the second one; local has its program run here (docs/gpu.md)
     #[arg(long, value_name = "DEVICE")]
     device: Option<Accelerator>,
@@ -92,6 +95,7 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
         Some(source) => Some(Checkpoint::last(&source.to_string(), source.open()?)?),
         None => None,
     };
+    let earlier = earlier(&args, resumed.as_ref())?;
     given_once(&args.inputs)?;
     let mut inputs = Vec::new();
     for source in &args.inputs {
@@ -106,13 +110,30 @@ fn dem_run(args: Args) -> anyhow::Result<Report> {
     }
     run::ready(&scene, &plan, resume.as_ref())?;
     parts::say(&args.output, resumed.as_ref());
-    simulate(&args, &scene, plan, resume)
+    simulate(&args, &scene, plan, resume, earlier)
+}
+
+/// What the resumed run has written, where the output is to begin with it.
+fn earlier(args: &Args, resumed: Option<&Source>) -> anyhow::Result<Option<Earlier>> {
+    match (args.whole, resumed) {
+        (false, _) => Ok(None),
+        (true, None) => Err(cli::usage("--whole has no effect without --resume: leave it out")),
+        (true, Some(Source::Stdin)) => {
+            Err(cli::usage("--whole reads the resumed run twice: give --resume a file instead of -"))
+        }
+        (true, Some(source)) => Ok(Some(Earlier::open(&source.to_string(), source.open()?)?)),
+    }
 }
 
 /// Refuses options that change nothing where nothing runs, and a run as the output.
 fn without_run(args: &Args) -> anyhow::Result<()> {
     let option = if args.explain { "--explain" } else { "--check" };
-    for (given, name) in [(args.progress, "--progress"), (args.device.is_some(), "--device")] {
+    let options = [
+        (args.progress, "--progress"),
+        (args.device.is_some(), "--device"),
+        (args.whole && args.resume.is_some(), "--whole"),
+    ];
+    for (given, name) in options {
         if given {
             return Err(cli::usage(format!("{name}: {option} runs nothing: leave it out")));
         }
@@ -227,14 +248,20 @@ fn explain(args: &Args, scene: &Scene, plan: Plan, resume: Option<&Checkpoint>) 
     Ok(report.with("resumes_at_s", from).with_all(&explained.fields))
 }
 
-fn simulate(args: &Args, scene: &Scene, plan: Plan, resume: Option<Checkpoint>) -> anyhow::Result<Report> {
+fn simulate(
+    args: &Args,
+    scene: &Scene,
+    plan: Plan,
+    resume: Option<Checkpoint>,
+    earlier: Option<Earlier>,
+) -> anyhow::Result<Report> {
     let device = args.device.map(Accelerator::open).transpose()?;
     let out = args.output.open_long()?;
     let (keep, part) = (out.keeper(), parts::as_named(&args.output, out.part()));
     let first = u64::from(resume.is_none());
     let (provenance, how) = (cli::provenance(plan.inputs.clone()), out.how());
     let (watched, ledger) = (args.progress, plan.setup.ledger);
-    let settings = Settings { provenance, how, resume, watched, stop: cli::stop_requested, device };
+    let settings = Settings { provenance, how, resume, earlier, watched, stop: cli::stop_requested, device };
     cli::stop_in_order();
     let (mut watch, mut saved) = (Watch::new(args.progress), Saved::default());
     // What is in the file before the first step can be had again at no cost.

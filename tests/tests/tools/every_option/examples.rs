@@ -36,6 +36,7 @@ pub const EXAMPLES: &[&str] = &[
     "wallgen flat.xyz --from-mesh tetra.ply --roughness 0.001 --radius uniform -o both.mcap",
     "dem-run s.toml --set contact.0.restitution=0.3 --until 0.01 --progress -o run.mcap --report r.json --threads 2 -q",
     "dem-run s.toml --set contact.0.restitution=0.3 --until 0.05 --resume run.mcap --output rest.mcap --quiet",
+    "dem-run s.toml --set contact.0.restitution=0.3 --until 0.05 --resume run.mcap --whole -o whole.mcap",
     "dem-run s.toml --check",
     "dem-run s.toml --explain",
     "dem-run named.toml --materials --check",

@@ -1,0 +1,73 @@
+//! What a run had written before it was resumed, for an output that holds the whole run.
+
+use crate::error::Result;
+use record::{FRAME, LogMessage, metadata, nanoseconds, topic};
+use scene::SceneError;
+use std::io::{Read, Write};
+use stream::mcap::{Event, McapError, Reader, Writer};
+
+/// The file of a run that is resumed, read from its beginning.
+pub struct Earlier {
+    name: String,
+    events: Reader<Box<dyn Read + Send>>,
+    /// The first message, behind the head.
+    first: Option<Event>,
+    /// When that run began, which may have been resumed as well [s].
+    pub(crate) start: f64,
+}
+
+impl Earlier {
+    /// Reads the head of a run.
+    ///
+    /// # Errors
+    /// A stream that is damaged.
+    pub fn open(name: &str, source: Box<dyn Read + Send>) -> Result<Earlier> {
+        let mut earlier =
+            Earlier { name: name.to_owned(), events: Reader::new(source), first: None, start: 0.0 };
+        while let Some(event) = earlier.next()? {
+            let Event::Metadata { name, map } = event else {
+                earlier.first = Some(event);
+                break;
+            };
+            if name == metadata::TIME {
+                earlier.start = map.get("start").and_then(|start| start.parse().ok()).unwrap_or(0.0);
+            }
+        }
+        Ok(earlier)
+    }
+
+    /// The next event; `None` at the end, also that of a run that was killed.
+    fn next(&mut self) -> Result<Option<Event>> {
+        match self.events.next() {
+            None | Some(Err(McapError::Truncated { .. })) => Ok(None),
+            Some(Ok(event)) => Ok(Some(event)),
+            Some(Err(error)) => Err(SceneError::content(&self.name, "a run", error).into()),
+        }
+    }
+
+    /// Writes all messages until the time of a checkpoint [s] but what no longer holds: why that run was stopped, its checkpoints, and the histories
+    /// of its last frame. Returns whether a frame of that time is among them.
+    pub(crate) fn copy<W: Write>(mut self, writer: &mut Writer<W>, until: f64) -> Result<bool> {
+        let (until, mut has_frame) = (nanoseconds(until), false);
+        let mut event = self.first.take();
+        while let Some(message) = event {
+            match message {
+                Event::Points { topic, time_ns, table } if time_ns <= until && topic != topic::HISTORY => {
+                    has_frame |= topic == topic::PARTICLES && time_ns == until;
+                    writer.points(&topic, time_ns, FRAME, table)?;
+                }
+                Event::Bytes { topic, time_ns, data } if time_ns <= until && holds(&topic, &data) => {
+                    writer.bytes(&topic, "json", time_ns, &data)?;
+                }
+                _ => {}
+            }
+            event = self.next()?;
+        }
+        Ok(has_frame)
+    }
+}
+
+/// Whether a message in JSON is still true when the run goes on.
+fn holds(topic: &str, data: &[u8]) -> bool {
+    topic != topic::CHECKPOINT && !(topic == topic::LOG && LogMessage::stop(data).is_some())
+}
