@@ -58,9 +58,9 @@ pub struct Args {
     /// Recommend the cheapest setting within this error: a share (1%), or a number in its unit where the exact value is 0 (default 1%)
     #[arg(long = "for", value_name = "ERROR", value_parser = wanted, allow_hyphen_values = true, help_heading = "Judging")]
     pub wanted: Option<Wanted>,
-    /// How a profile becomes one number
-    #[arg(long, value_enum, default_value_t = Norm::Rms, help_heading = "Judging")]
-    pub norm: Norm,
+    /// How a profile becomes one number [default: rms]
+    #[arg(long, value_enum, help_heading = "Judging")]
+    pub norm: Option<Norm>,
     /// Run each point with N seeds of the random numbers; gives the mean and its 95 % interval
     #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Running")]
     pub repeat: u64,
@@ -146,7 +146,7 @@ impl Args {
             in_use: self.in_use.clone(),
             truth: exact.or(laboratory),
             wanted: self.wanted,
-            norm: if self.norm == Norm::Max { curve::Norm::Max } else { curve::Norm::Rms },
+            norm: if self.norm == Some(Norm::Max) { curve::Norm::Max } else { curve::Norm::Rms },
             repeat: self.repeat,
             phases: self.phases,
             rounds: self.rounds,

@@ -42,6 +42,8 @@ pub struct Measure {
     value: String,
     /// Whether a column is meant, though the summary may have a value of that name.
     each: bool,
+    /// Whether it is a profile, or one number; `None`: its name does not tell.
+    profile: Option<bool>,
     /// Options of dem-measure.
     options: Vec<String>,
 }
@@ -68,14 +70,16 @@ impl Measure {
                 Some(column) => (column.trim().to_owned(), true),
                 None => (value, false),
             };
-            return Ok(Measure { name: value.replace('_', " "), value, each, options });
+            let profile = each.then_some(true);
+            return Ok(Measure { name: value.replace('_', " "), value, each, profile, options });
         }
         let words = own(text);
         let name = words.first().map_or("", String::as_str);
         if let Some(Known { name, option, value }) = KNOWN.iter().find(|known| known.name == name) {
             let options = [vec![(*option).to_owned()], words[1..].to_vec()].concat();
+            let profile = Some(*option == "--profile");
             let (name, value) = (name.replace('-', " "), (*value).to_owned());
-            return Ok(Measure { name, value, each: false, options });
+            return Ok(Measure { name, value, each: false, profile, options });
         }
         let near = KNOWN.iter().map(|k| (strsim::damerau_levenshtein(k.name, name), k.name)).min();
         let hint = near.filter(|n| n.0 <= 3).map_or(String::new(), |n| format!("; did you mean '{}'?", n.1));
@@ -84,6 +88,11 @@ impl Measure {
             "--measure {text}: is not known{hint}: give one of {}, or 'VALUE of --MEASURE …' of dem-measure",
             names.join(", ")
         )))
+    }
+
+    /// Whether it is known to be one number of a run, of which a norm makes nothing else.
+    pub fn is_number(&self) -> bool {
+        self.profile == Some(false)
     }
 
     /// Measures a run, or reads what was measured before.
@@ -167,8 +176,8 @@ mod tests {
         let sheet = json!({"columns": [{"name": "z", "unit": "m"}, {"name": "vx", "unit": "m/s"}],
             "rows": [[0.1, 1.0], [0.2, null]], "summary": {"angle": {"value": 30.5, "unit": "deg"}, "bad": {"value": null}}});
         let find = |value: &str| {
-            Measure { name: String::new(), value: value.into(), each: false, options: vec!["--x".into()] }
-                .find(&sheet)
+            let (name, value, options) = (String::new(), value.into(), vec!["--x".into()]);
+            Measure { name, value, each: false, profile: None, options }.find(&sheet)
         };
         let measured = |values: &[f64], unit: &str| Measured { values: values.to_vec(), unit: unit.into() };
         assert_eq!(find("angle").unwrap(), measured(&[30.5], "deg"));

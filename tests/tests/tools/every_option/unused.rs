@@ -21,6 +21,10 @@ const REFUSED: &[(&str, &str)] = &[
         "cloud-fill flat.xyz --fill grid --seed 3",
         "--seed: --fill grid leaves nothing to chance: leave it out",
     ),
+    (
+        "cost-curve s.toml --vary safety=0.2,0.4 --measure bed-height --norm max",
+        "--norm: the bed height of a run is one number: leave it out",
+    ),
     ("cloud-crop flat.xyz --mark", "flat.xyz: --mark: no rule is given, and the cloud has no marks"),
     (
         "cloud-crop flat.xyz --restore box:0,0,0,1,1,1",
