@@ -110,7 +110,7 @@ fn fit(recipe: &Recipe, end: &StepEnd, of: (usize, &Part)) -> Panel {
     }
     let (x_label, y_label) = (test.x.as_deref().unwrap_or(""), test.y.as_deref().unwrap_or("value"));
     let (plots, layout) =
-        labelled(plots, &test.name, &unit(x_label, &target.x_unit), &unit(y_label, &test.unit));
+        labelled(plots, &test.name, &unit(x_label, &target.x_unit), &unit(y_label, test.unit()));
     if test.x.is_some() {
         return (plots, layout);
     }

@@ -105,6 +105,27 @@ impl Sheet {
         }
     }
 
+    /// Index of a column, and the factor from its unit to another one (absent: SI). The unit is what the name asks for, or what the header says; without one the
+    /// numbers are in the other unit.
+    ///
+    /// # Errors
+    /// There is none of this name; a unit that is unknown, or of another dimension.
+    pub fn in_unit(&self, name: &str, to: Option<&str>) -> Result<(usize, f64)> {
+        let (column, header) = self.column(name)?;
+        let own = Column::new(name).unit.or(header.map(str::to_owned)).unwrap_or_default();
+        let to = to.filter(|to| !to.is_empty());
+        if ["", "-", "–"].contains(&own.as_str()) || to == Some(&own) {
+            return Ok((column, 1.0));
+        }
+        let factor = match to {
+            Some(to) => geom::units::ratio(&own, to).ok_or_else(|| {
+                format!("column '{name}' is in '{own}', the test in '{to}': they have other dimensions, or one is unknown")
+            }),
+            None => geom::units::in_si(&own).ok_or_else(|| format!("column '{name}': unknown unit '{own}'")),
+        };
+        Ok((column, factor.map_err(|message| self.refuse(1, message))?))
+    }
+
     /// Whether it has a column.
     pub fn has(&self, name: &str) -> bool {
         self.columns.iter().any(|c| c.name == name)
@@ -199,6 +220,19 @@ mod tests {
         assert_eq!(sheet.column("tau [Pa]").unwrap(), (2, None));
         let rows = sheet.numbers(&[1, 2], &BTreeMap::from([("load".to_owned(), 2.0)])).unwrap();
         assert_eq!(rows, [(4, vec![0.0, 5.0]), (5, vec![1.0, 7.0])]);
+    }
+
+    #[test]
+    fn the_unit_of_a_header_counts() {
+        let sheet = Sheet::parse("c.csv", "x [mm],y [kPa],n\n1,2,3\n").unwrap();
+        let factor = |name: &str, to: Option<&str>| sheet.in_unit(name, to).map(|(_, factor)| factor);
+        assert_eq!(factor("x", None).unwrap(), 1e-3);
+        assert_eq!(factor("y", Some("Pa")).unwrap(), 1e3);
+        assert_eq!(factor("y", Some("MPa")).unwrap(), 1e-3);
+        assert_eq!((factor("y", Some("kPa")).unwrap(), factor("n", Some("Pa")).unwrap()), (1.0, 1.0));
+        assert_eq!(factor("y [Pa]", None).unwrap(), 1.0, "what is asked for goes before the header");
+        let why = factor("y", Some("mm")).unwrap_err().to_string();
+        assert!(why.contains("c.csv:1: column 'y' is in 'kPa', the test in 'mm'"), "{why}");
     }
 
     #[test]

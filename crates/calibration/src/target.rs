@@ -71,7 +71,7 @@ pub(crate) fn curve(asked: &Asked, files: &[PathBuf], warnings: &mut Vec<String>
         let mut values = Vec::new();
         for file in files {
             let sheet = sheet(file)?;
-            let (column, factor) = column(&sheet, file, &asked.y, asked.units.y.as_deref())?;
+            let (column, factor) = sheet.in_unit(&asked.y, asked.units.y.as_deref())?;
             values.extend(sheet.numbers(&[column], &BTreeMap::new())?.iter().map(|(_, v)| v[0] * factor));
         }
         return value(asked, &values).map_err(CalibrateError::Usage);
@@ -122,33 +122,13 @@ fn sheet(file: &Path) -> Result<Sheet> {
     Sheet::parse(&file.display().to_string(), &text)
 }
 
-/// A column, and the factor from its unit to that of the command.
-fn column(sheet: &Sheet, file: &Path, name: &str, to: Option<&str>) -> Result<(usize, f64)> {
-    let (column, own) = sheet.column(name)?;
-    let written = name.trim().strip_suffix(']').and_then(|n| n.rsplit_once('[')).map(|(_, unit)| unit.trim());
-    let Some(own) = written.or(own).filter(|u| !["", "-", "–"].contains(u)) else {
-        return Ok((column, 1.0));
-    };
-    let refuse = |message: String| CalibrateError::Data {
-        place: Place::line(&file.display().to_string(), 1),
-        message,
-    };
-    let factor = match to.filter(|t| !t.is_empty()) {
-        Some(to) => geom::units::ratio(own, to).ok_or_else(|| {
-            refuse(format!("column '{name}' is in '{own}', the test in '{to}': they have other dimensions, or one is unknown"))
-        })?,
-        None => geom::units::in_si(own).ok_or_else(|| refuse(format!("column '{name}': unknown unit '{own}'")))?,
-    };
-    Ok((column, factor))
-}
-
 fn measured(asked: &Asked, x: &str, file: &Path, warnings: &mut Vec<String>) -> Result<Measured> {
     let sheet = sheet(file)?;
     let name = file.display().to_string();
-    let (cx, fx) = column(&sheet, file, x, asked.units.x.as_deref())?;
-    let (cy, fy) = column(&sheet, file, &asked.y, asked.units.y.as_deref())?;
+    let (cx, fx) = sheet.in_unit(x, asked.units.x.as_deref())?;
+    let (cy, fy) = sheet.in_unit(&asked.y, asked.units.y.as_deref())?;
     let own = if asked.deviation.is_none() && sheet.has(DEVIATION) {
-        Some(column(&sheet, file, DEVIATION, asked.units.y.as_deref())?)
+        Some(sheet.in_unit(DEVIATION, asked.units.y.as_deref())?)
     } else {
         None
     };

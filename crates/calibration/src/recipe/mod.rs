@@ -18,6 +18,7 @@ pub use steps::{Part, Step};
 
 use crate::data::Target;
 use crate::error::{CalibrateError, Result};
+use crate::target::Units;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use text::Text;
@@ -81,11 +82,16 @@ pub struct Test {
     pub deviation: Option<f64>,
     /// Whether [`Test::deviation`] is a share.
     pub share: bool,
-    /// Unit of y, for messages.
-    pub unit: String,
+    /// Units of x and y.
+    pub(crate) units: Units,
 }
 
 impl Test {
+    /// Unit of y, for messages.
+    pub fn unit(&self) -> &str {
+        self.units.y.as_deref().unwrap_or_default()
+    }
+
     /// Whether the seed changes it.
     pub fn is_random(&self) -> bool {
         self.command.contains("{seed}")

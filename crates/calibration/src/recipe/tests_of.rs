@@ -174,7 +174,7 @@ fn test(
         target,
         deviation,
         share,
-        unit: asked.units.y.clone().unwrap_or_default(),
+        units: asked.units,
     })
 }
 

@@ -61,9 +61,14 @@ fn curve(run: &Run, test: &Test) -> Result<Vec<(f64, f64)>> {
         return Ok(vec![(0.0, of_report(&name, &text, y)?)]);
     }
     let sheet = Sheet::parse(&name, &text)?;
-    let columns: Vec<usize> =
-        test.x.iter().chain([y]).map(|c| Ok(sheet.column(c)?.0)).collect::<Result<_>>()?;
-    let rows = sheet.numbers(&columns, &test.rows)?;
+    let named = test.x.iter().map(|x| (x, &test.units.x)).chain([(y, &test.units.y)]);
+    let asked: Vec<(usize, f64)> =
+        named.map(|(name, unit)| sheet.in_unit(name, unit.as_deref())).collect::<Result<_>>()?;
+    let columns: Vec<usize> = asked.iter().map(|column| column.0).collect();
+    let mut rows = sheet.numbers(&columns, &test.rows)?;
+    for (_, row) in &mut rows {
+        row.iter_mut().zip(&asked).for_each(|(value, (_, factor))| *value *= factor);
+    }
     if test.x.is_some() {
         let curve = growing(rows.iter().map(|(_, row)| (row[0], row[1])));
         return if curve.len() >= 2 {
