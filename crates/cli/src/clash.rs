@@ -101,15 +101,9 @@ fn read_by(argument: &Arg, matches: &ArgMatches) -> Vec<PathBuf> {
         || argument.get_value_names().is_some_and(|names| names.iter().any(|name| name.contains("FILE")));
     let path = |value: &std::ffi::OsStr| match whole {
         true => Some(PathBuf::from(value)),
-        false => in_shape(value.to_str()?).map(PathBuf::from),
+        false => geom::shape::file_of(value.to_str()?.trim()).map(PathBuf::from),
     };
     values.filter_map(path).collect()
-}
-
-/// The file of a SHAPE such as `!mesh:stone.ply`.
-fn in_shape(text: &str) -> Option<&str> {
-    let (kind, file) = text.trim_start_matches('!').split_once(':')?;
-    matches!(kind, "mesh" | "prism").then_some(file)
 }
 
 /// The one name of a file; devices and pipes are not replaced by an output and have none.

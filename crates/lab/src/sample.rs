@@ -5,6 +5,7 @@
 use crate::compose::Composition;
 use crate::error::{LabError, Result};
 use crate::grains::Grains;
+use scene::keys::DRAWN;
 use scene::{Scene, Text};
 use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, Table};
@@ -155,7 +156,7 @@ fn scale(scene: &Scene) -> f64 {
 
 /// Whether the strengths of a `[[bond]]` are drawn.
 pub(crate) fn is_drawn(bond: &Table) -> bool {
-    ["deviation", "weibull_modulus"].iter().any(|key| bond.contains_key(key))
+    DRAWN.iter().any(|key| bond.contains_key(key))
 }
 
 /// Whether grains are placed by the sample itself.

@@ -54,6 +54,11 @@ fn files_that_the_scene_names_are_not_replaced() {
     std::os::unix::fs::symlink("in/plate.ply", f.join("link.ply")).unwrap();
     refused(f, "dem-run s.toml -o in/one.csv", &["-o in/one.csv is also an input: choose another name"]);
     refused(f, "dem-run s.toml -o in/plate.ply", &["-o in/plate.ply is also an input"]);
+    refused(
+        f,
+        "cloud-crop in/one.csv --remove mesh:in/plate.ply,units=mm -o in/plate.ply",
+        &["-o in/plate.ply is also an input"],
+    );
     refused(f, "dem-run s.toml -o link.ply", &["-o link.ply is also an input (in/plate.ply)"]);
     refused(f, "dem-run s.toml -o x.mcap --report ./in/one.csv", &["--report ./in/one.csv", "also an input"]);
     refused(f, "dem-run s.toml --explain -o in/one.csv", &["-o in/one.csv is also an input"]);

@@ -1,6 +1,7 @@
 //! What can be varied: keys of the scene, short names for the usual ones, and blanks {KEY} in lines.
 
 use crate::study::CurveError;
+use scene::keys::DRAWN;
 use scene::nearest;
 use toml::Value;
 
@@ -194,9 +195,11 @@ impl Knob {
     }
 }
 
-/// Overrides that give every fill and insertion other random numbers; none for the first.
+/// Overrides that give every fill, insertion and bond of drawn strength other random numbers; none for the first.
 pub fn seeds(scene: &Value, repeat: u64) -> Vec<String> {
-    let keys = ["fill.*", "insert.*"].map(|key| expand(scene, key)).concat();
+    let mut keys = ["fill.*", "insert.*", "bond.*"].map(|key| expand(scene, key)).concat();
+    let is_drawn = |bond: &String| DRAWN.iter().any(|key| get(scene, &format!("{bond}.{key}")).is_some());
+    keys.retain(|entry| !entry.starts_with("bond") || is_drawn(entry));
     let seed = |entry: &String| {
         let now = get(scene, &format!("{entry}.seed")).and_then(Value::as_integer).unwrap_or(0);
         format!("{entry}.seed={}", now + repeat as i64)
@@ -238,7 +241,8 @@ mod tests {
 
     fn scene() -> Value {
         let text = "precision = \"mixed\"\n[time]\nsafety = 0.20\n[[material]]\nyoung = 1e7\n[[material]]\nyoung = 2e7\n\
-                    [[contact]]\nstiffness = 1000\n[[fill]]\nseed = 5\n[[fill]]\n";
+                    [[contact]]\nstiffness = 1000\n[[fill]]\nseed = 5\n[[fill]]\n\
+                    [[bond]]\nkind = \"beam\"\n[[bond]]\nweibull_modulus = 3\n";
         Value::Table(text.parse().unwrap())
     }
 
@@ -253,7 +257,7 @@ mod tests {
             ["material.0.young=1e6", "material.1.young=2e6", "contact.0.stiffness=1e2"]
         );
         assert!(Knob::new("zone", false).overrides(&scene, "1").is_err());
-        assert_eq!(seeds(&scene, 3), ["fill.0.seed=8", "fill.1.seed=3"]);
+        assert_eq!(seeds(&scene, 3), ["fill.0.seed=8", "fill.1.seed=3", "bond.1.seed=3"]);
     }
 
     #[test]

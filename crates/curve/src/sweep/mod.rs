@@ -152,7 +152,7 @@ fn check_random(study: &Study, scene: &str, values: &Value) -> Result<(), CurveE
         return Ok(());
     }
     Err(CurveError::Usage(format!(
-        "--repeat {}: {scene} uses no random numbers: it has no [[fill]] and no [[insert]]: leave --repeat out, or \
+        "--repeat {}: {scene} uses no random numbers: it has no [[fill]], no [[insert]] and no [[bond]] of drawn strength: leave --repeat out, or \
          put {{seed}} into --each",
         study.repeat
     )))

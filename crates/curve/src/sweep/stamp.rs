@@ -44,11 +44,8 @@ impl Hashes {
 /// SHA-256 of everything that a point is made from: the scene with its changes, the files that it and the lines name, the
 /// programs, the line before.
 pub(super) fn stamp(job: &Job, text: &str, tools: &Path, hashes: &mut Hashes) -> Result<String, CurveError> {
-    let value = table(&job.scene, text)?;
-    let mut words = Vec::new();
-    strings(&value, &mut words);
-    // Shapes name their files behind a colon.
-    let named = words.iter().map(|w| w.split_once(':').map_or(w.as_str(), |(_, file)| file));
+    let words = words(&table(&job.scene, text)?);
+    let named = words.iter().map(String::as_str);
     let folder = Path::new(&job.scene).parent().unwrap_or(Path::new("")).to_owned();
     let program = tools.join("dem-run");
     let missing = || format!("{}: not found: install dem-run beside cost-curve", program.display());
@@ -63,12 +60,25 @@ pub(super) fn stamp(job: &Job, text: &str, tools: &Path, hashes: &mut Hashes) ->
     Ok(stream::sha256(all.join("\n").as_bytes()))
 }
 
-/// Every text in a scene.
-fn strings(value: &Value, found: &mut Vec<String>) {
+/// Every text in a scene, of a shape the file that it names.
+fn words(value: &Value) -> Vec<String> {
     match value {
-        Value::String(text) => found.push(text.clone()),
-        Value::Array(list) => list.iter().for_each(|v| strings(v, found)),
-        Value::Table(table) => table.values().for_each(|v| strings(v, found)),
-        _ => {}
+        Value::String(text) => vec![geom::shape::file_of(text).unwrap_or(text).to_owned()],
+        Value::Array(list) => list.iter().flat_map(words).collect(),
+        Value::Table(table) => table.values().flat_map(words).collect(),
+        _ => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_named_by_keys_and_by_shapes() {
+        let scene = "[[wall]]\nmesh = \"a.ply\"\n[[fill]]\nshape = \"mesh:b.ply,units=mm\"\n[domain]\noutside = [\"!prism:c.csv\"]\n";
+        let mut words = words(&Value::Table(scene.parse().unwrap()));
+        words.sort();
+        assert_eq!(words, ["a.ply", "b.ply", "c.csv"]);
     }
 }

@@ -87,6 +87,9 @@ pub struct Bond {
     pub replaces_contact: Option<bool>,
 }
 
+/// Keys of a `[[bond]]` of which either has its strengths drawn.
+pub const DRAWN: [&str; 2] = ["deviation", "weibull_modulus"];
+
 /// What a bond resists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
