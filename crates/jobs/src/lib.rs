@@ -8,8 +8,8 @@ mod part;
 pub use lock::Lock;
 pub use part::{clear_parts, replace};
 
-use std::fs;
-use std::path::Path;
+use rustix::io::Errno;
+use rustix::process::{Pid, test_kill_process};
 
 /// Machine and process, as part of names.
 pub fn here() -> String {
@@ -18,12 +18,19 @@ pub fn here() -> String {
 
 /// The name of this machine.
 pub fn host() -> String {
-    let name = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
-    let name: String = name.trim().chars().filter(|c| c.is_ascii_alphanumeric() || *c == '.').collect();
+    let system = rustix::system::uname();
+    let name: String = system
+        .nodename()
+        .to_string_lossy()
+        .chars()
+        .filter(|c| c.is_ascii_alphanumeric() || *c == '.')
+        .collect();
     if name.is_empty() { "host".to_owned() } else { name }
 }
 
 /// Whether a process of this machine, by its number, is at work.
 pub fn is_at_work(process: &str) -> bool {
-    Path::new("/proc").join(process).exists()
+    let number = process.parse().ok().and_then(Pid::from_raw);
+    // A process of another user is there, too: it only may not be signalled.
+    number.is_some_and(|number| test_kill_process(number) != Err(Errno::SRCH))
 }

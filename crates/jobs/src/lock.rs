@@ -58,16 +58,26 @@ impl Lock {
     /// A sign of life.
     pub fn beat(&mut self) {
         if self.beaten.elapsed() > BEAT {
-            self.beaten = Instant::now();
+            self.beat_now();
+        }
+    }
+
+    fn beat_now(&mut self) {
+        self.beaten = Instant::now();
+        if self.is_ours() {
             let _ = fs::write(&self.path, text());
         }
+    }
+
+    /// Whether it is still ours: while this process was suspended, another may have found it stale, and have taken it.
+    fn is_ours(&self) -> bool {
+        fs::read_to_string(&self.path).is_ok_and(|now| now == text())
     }
 }
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Another process may have found it stale, and have taken it.
-        if fs::read_to_string(&self.path).is_ok_and(|now| now == text()) {
+        if self.is_ours() {
             let _ = fs::remove_file(&self.path);
         }
     }
@@ -111,10 +121,11 @@ mod tests {
         assert!(Lock::is_held(&path) && Lock::take(&path).unwrap().is_none());
         drop(first);
         assert!(!path.exists());
-        let lost = Lock::take(&path).unwrap();
+        let mut lost = Lock::take(&path).unwrap().expect("it is free");
         fs::write(&path, "another 1\n").unwrap();
+        lost.beat_now();
         drop(lost);
-        assert!(path.exists(), "it is another's now");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "another 1\n", "it is another's now");
         for (content, free) in [
             (format!("{} {}\n", host(), std::process::id()), false),
             (format!("{} {}\n", host(), gone()), true),
