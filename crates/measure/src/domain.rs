@@ -4,7 +4,7 @@
 //! ε = ln(h₀/h) by axis,  ε_v = Σ ε,   p = tr σ/3,   q = √(3/2 s_ab s_ab),  s = σ − p 1          compression is positive
 //! ```
 
-use crate::observer::Observer;
+use crate::observer::{Observer, is_between};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::stress::invariants;
 use crate::{MeasureError, Run, RunMessage};
@@ -51,9 +51,7 @@ impl Observer for Domain {
     fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Domain(record) = message else { return Ok(()) };
         self.seen = true;
-        let Some(stress) =
-            record.stress.filter(|_| self.between.0 <= record.time && record.time <= self.between.1)
-        else {
+        let Some(stress) = record.stress.filter(|_| is_between(self.between, record.time)) else {
             return Ok(());
         };
         rows.push(row(&record, stress));

@@ -4,14 +4,15 @@
 //! closure error = Σ Δ balance       balance = kinetic + potential + elastic + dissipated − work of walls − integration
 //! ```
 //!
-//! over the intervals between ledgers; there the balance is constant to rounding. Ledgers without that term do not count particles that come and
-//! goes either: of those only intervals in which no grain enters or leaves count (by the ids of the frames). The energy that the finite time step created is the term `integration`, the error of the run's energy. Both are given
+//! over the intervals between ledgers; there the balance is constant to rounding. Ledgers without that term leave out what particles bring along that
+//! come and go, too: of those only intervals in which no grain enters or leaves count (by the ids of the frames). The energy that the finite time step created is the term `integration`, the error of the run's energy. Both are given
 //! also relative to the energy exchanged so far: the largest change of any other term.
 
-use crate::observer::Observer;
+use crate::observer::{Observer, is_between};
 use crate::run::Ledger;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
+use geom::counted;
 
 /// Terms in this order; what a run has besides follows by name.
 const ORDER: [&str; 8] =
@@ -109,7 +110,7 @@ impl Observer for Energy {
                 let sum = |of: fn(u64) -> u64| frame.id.iter().fold(0, |s: u64, id| s.wrapping_add(of(*id)));
                 self.now = (frame.len(), sum(|id| id), sum(|id| id.wrapping_mul(id)));
             }
-            RunMessage::Ledger(l) if self.between.0 <= l.time && l.time <= self.between.1 => {
+            RunMessage::Ledger(l) if is_between(self.between, l.time) => {
                 rows.push(self.row(l));
             }
             _ => {}
@@ -136,7 +137,8 @@ impl Observer for Energy {
                 made / self.exchanged,
             ),
         };
-        let note = format!("{} intervals left out of the closure: grains entered or left", self.left_out);
+        let left_out = counted(self.left_out, "interval");
+        let note = format!("{left_out} left out of the closure: grains entered or left");
         Ok(if self.left_out > 0 { summary.note(note) } else { summary })
     }
 

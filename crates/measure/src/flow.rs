@@ -10,7 +10,7 @@ use crate::path::PreviousFrame;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Frame, MeasureError, Run, RunMessage};
-use geom::{Plane, Shape, Shown, Vec3};
+use geom::{Plane, Shape, Shown, Vec3, counted};
 use std::collections::VecDeque;
 
 /// Most spans of a run: each is a row.
@@ -266,7 +266,7 @@ impl Observer for Flow {
                     let own = crossings.iter().filter(|p| p.outlet == outlet && self.wanted(&p.position));
                     for p in own.copied().collect::<Vec<_>>() {
                         if p.mass.is_nan() {
-                            return Err(MeasureError::Density { index: 0 });
+                            return Err(MeasureError::Density { index: p.material });
                         }
                         self.add(p.time, along, p.mass);
                     }
@@ -302,9 +302,9 @@ impl Observer for Flow {
             .with("unjudged", "1", self.unjudged as f64)
             .note(if self.outlet.is_some() { "from recorded crossings" } else { "from frames, by id" });
         let unjudged = format!(
-            "{} grains near the plane vanished or appeared between frames and are not counted: set [output] every to \
+            "{} near the plane vanished or appeared between frames, and the flow leaves this out: set [output] every to \
              less, or measure at the outlet's own plane",
-            self.unjudged
+            counted(self.unjudged, "grain")
         );
         let away = format!(
             "no grain comes to the plane: they are from {} to {} m from it along its normal",

@@ -28,15 +28,20 @@ impl Distribution {
     pub fn of(forces: &[f64]) -> Distribution {
         let mean = forces.iter().sum::<f64>() / forces.len() as f64;
         let mut bars = vec![0; BARS + 1];
-        for f in forces {
+        // Of forces that are all 0, as frictions of a frictionless run are, there is no distribution.
+        for f in forces.iter().filter(|_| mean > 0.0) {
             bars[((f / mean / WIDTH) as usize).min(BARS)] += 1;
         }
         Distribution { count: forces.len(), mean, largest: forces.iter().copied().fold(0.0, f64::max), bars }
     }
 
-    /// P(f) of a bar; NaN for the last one, which has no end.
+    /// P(f) of a bar; NaN for the last one, which has no end, and where all forces are 0.
     pub fn density(&self, bar: usize) -> f64 {
-        if bar >= BARS { f64::NAN } else { self.bars[bar] as f64 / (self.count as f64 * WIDTH) }
+        if bar >= BARS || self.mean <= 0.0 {
+            f64::NAN
+        } else {
+            self.bars[bar] as f64 / (self.count as f64 * WIDTH)
+        }
     }
 }
 

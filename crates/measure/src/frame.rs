@@ -200,6 +200,8 @@ pub struct Crossing {
     pub position: Vec3,
     /// Identity.
     pub id: u64,
+    /// Index of the material.
+    pub material: u16,
     /// Mass [kg]; NaN where the material has no density.
     pub mass: f64,
 }
@@ -223,6 +225,7 @@ impl Crossing {
             outlet: outlet[k] as usize,
             position: position[k],
             id: id[k],
+            material: material[k] as u16,
             mass: if written[k] > 0.0 { written[k] } else { of_sphere(k) },
         };
         Ok((0..position.len()).map(row).collect())

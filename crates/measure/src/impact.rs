@@ -10,11 +10,11 @@
 //! after the two act on each other, without what gravity adds between that frame and the contact. Frames must be much closer than
 //! the contact lasts: `[output] every = "step"` writes one at every step. A wall is taken to be at rest.
 
-use crate::observer::{NO_CONTACTS, Observer};
+use crate::observer::{NO_CONTACTS, Observer, is_between};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Contact, Frame, MeasureError, Partner, Run, RunMessage};
-use geom::Vec3;
+use geom::{Vec3, counted};
 use std::collections::{BTreeMap, HashMap};
 
 /// Two that touch: grain i, and j, and whether j is a wall.
@@ -176,7 +176,7 @@ impl Impacts {
             self.cut += u64::from(open.deepest > 0.0);
             return None;
         };
-        if !(self.between.0 <= start && start <= self.between.1) {
+        if !is_between(self.between, start) {
             return None;
         }
         let after = -cubic.ways[1] / (cubic.times[1] - cubic.times[0]);
@@ -260,8 +260,9 @@ impl Observer for Impacts {
             .with("largest_overlap", "m", self.rows[1].iter().copied().fold(0.0, f64::max))
             .with("impacts", "1", self.rows[0].len() as f64);
         let cut = self.cut + self.open.len() as u64;
+        let left_out = counted(cut, "contact");
         let note =
-            format!("{cut} contacts left out: they began before the first frame or end after the last one");
+            format!("left out {left_out} that began before the first frame or had not ended by the last");
         Ok(if cut > 0 { summary.note(note) } else { summary })
     }
 

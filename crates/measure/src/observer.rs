@@ -41,7 +41,7 @@ impl Which {
         match *self {
             Which::Last => true,
             Which::At(at) => time <= at + SLACK,
-            Which::Between(from, until) => from - SLACK <= time && time <= until + SLACK,
+            Which::Between(from, until) => is_between((from, until), time),
         }
     }
 
@@ -56,7 +56,12 @@ impl Which {
     }
 }
 
-/// A hair of slack [s]: times are stored in nanoseconds.
+/// Whether a time lies between two [s], these included.
+pub fn is_between((from, until): (f64, f64), time: f64) -> bool {
+    from - SLACK <= time && time <= until + SLACK
+}
+
+/// A hair of slack [s]: frames have their times in nanoseconds.
 pub const SLACK: f64 = 1e-9;
 
 /// Something measured on one frame at a time.

@@ -7,7 +7,6 @@ use crate::energy::Energy;
 use crate::observer::Observer;
 use crate::sheet::{Curve, Look, Panel, Row};
 use crate::{Crossing, Frame, Run, RunMessage, WallForces};
-use record::column::BODY;
 
 /// Most points of a curve.
 const POINTS: usize = 500;
@@ -61,8 +60,9 @@ impl Overview {
     }
 
     fn frame(&mut self, frame: &Frame) {
-        // The spheres of a clump overlap: their masses are not its mass.
-        let Some(masses) = frame.masses().ok().filter(|_| frame.table.get(BODY).is_none()) else { return };
+        // A clump is one grain: what it turns with has no part in this energy, as with any grain.
+        let frame = frame.grains();
+        let Ok(masses) = frame.masses() else { return };
         let energy = masses.iter().zip(&frame.velocity).map(|(m, v)| 0.5 * m * v.norm_squared()).sum();
         self.grains.push([frame.time, energy, masses.iter().sum()]);
     }

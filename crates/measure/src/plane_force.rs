@@ -8,7 +8,7 @@
 //! zero where grains before the plane press along its normal. In an upstream stage the grains of the zone are those
 //! behind its storage plane: they feel no force, and their force on the others is counted.
 
-use crate::observer::{NO_CONTACTS, Observer};
+use crate::observer::{NO_CONTACTS, Observer, is_between};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Contact, Contacts, MeasureError, Partner, Run, RunMessage};
@@ -48,7 +48,7 @@ impl PlaneForce {
 
     fn contacts(&mut self, contacts: &Contacts, rows: &mut Vec<Row>) {
         self.contact_frames += 1;
-        if !(self.between.0 <= contacts.time && contacts.time <= self.between.1) {
+        if !is_between(self.between, contacts.time) {
             return;
         }
         let (count, force) = contacts

@@ -1,6 +1,6 @@
 //! A shape with a volume, and how much of a ball lies in it.
 //!
-//! Exact for boxes, spheres and half spaces, to 1e-9 of the ball for cylinders. For prisms and meshes: 1000 points
+//! Exact for boxes, spheres and half spaces, to 1e-9 of the ball for cylinders. For cones, prisms and meshes: 1000 points
 //! that fill the ball evenly, where 64 points on its surface are not all on one side; the reported error is
 //! that of random points, V √(p (1 − p)/1000); evenly spread points stay below it.
 

@@ -176,11 +176,11 @@ impl Run {
     }
 
     fn scene(&mut self, scene: &toml::Table) {
-        let gravity = scene.get("gravity").and_then(numbers);
+        let gravity = scene.get("gravity").and_then(|g| vector(g, "m/s²"));
         self.gravity = gravity.map_or(0.0, |g| g.norm());
         self.up = gravity.filter(|g| g.norm() > 0.0).map(|g| -g.normalize());
         let Some(domain) = scene.get("domain").and_then(toml::Value::as_table) else { return };
-        let [low, high] = ["low", "high"].map(|key| domain.get(key).and_then(numbers));
+        let [low, high] = ["low", "high"].map(|key| domain.get(key).and_then(|corner| vector(corner, "m")));
         let (Some(low), Some(high)) = (low, high) else { return };
         let axes = domain.get("periodic").and_then(toml::Value::as_array);
         for axis in axes.into_iter().flatten().filter_map(toml::Value::as_str) {
@@ -246,9 +246,8 @@ fn in_unit(text: &str, unit: &'static str) -> Option<f64> {
     text.trim().parse().ok().or_else(|| geom::units::parse(text, unit).ok())
 }
 
-/// The gravity of a scene: three numbers, or texts with units, or one text with commas.
-fn numbers(value: &toml::Value) -> Option<Vec3> {
-    let unit = "m/s²";
+/// A vector of a scene: three numbers, or texts with units, or one text with commas.
+fn vector(value: &toml::Value, unit: &'static str) -> Option<Vec3> {
     let list: Vec<f64> = match value {
         toml::Value::String(text) => text.split(',').filter_map(|text| in_unit(text, unit)).collect(),
         list => list.as_array()?.iter().filter_map(|v| number(v, unit)).collect(),

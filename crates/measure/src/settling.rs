@@ -4,7 +4,7 @@
 //! unbalanced = ⟨|Σ F|⟩ of grains / ⟨|F|⟩ of contacts        kinetic = Σ ½ m v² + ½ I ω²
 //! ```
 
-use crate::observer::Observer;
+use crate::observer::{Observer, is_between};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
 use record::topic::SETTLING;
@@ -56,8 +56,7 @@ impl Observer for Settling {
 
     fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         if let RunMessage::Settled(s) = message
-            && self.between.0 <= s.time
-            && s.time <= self.between.1
+            && is_between(self.between, s.time)
         {
             rows.push(vec![s.time, s.unbalanced, s.kinetic]);
             self.last = Some(s);

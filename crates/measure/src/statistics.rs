@@ -99,7 +99,8 @@ pub fn theil_sen(points: &[[f64; 2]]) -> Option<Line> {
     let (n, all) = (points.len() as f64, slopes.len() as f64);
     let c = 1.96 * (n * (n - 1.0) * (2.0 * n + 5.0) / 18.0).sqrt();
     let ranked = |rank: f64| slopes[(rank.max(0.0) as usize).min(slopes.len() - 1)];
-    let interval = [ranked(((all - c) / 2.0).floor()), ranked(((all + c) / 2.0).ceil())];
+    // Sen (1968), doi:10.2307/2285891, counts ranks from 1: the lower one is M1, the upper one M2 + 1.
+    let interval = [ranked(((all - c) / 2.0).floor() - 1.0), ranked(((all + c) / 2.0).ceil())];
     let mut rest: Vec<f64> = points.iter().map(|p| p[1] - slope * p[0]).collect();
     Some(Line { slope, interval, intercept: median(&mut rest) })
 }
@@ -107,6 +108,18 @@ pub fn theil_sen(points: &[[f64; 2]]) -> Option<Line> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// SciPy's `theilslopes` finds 1, and −0.6 to 2.6, of these points; it rounds ranks, which are rounded outwards here.
+    #[test]
+    fn the_interval_of_a_slope_is_mirrored_with_the_points() {
+        let points: Vec<[f64; 2]> =
+            (0..12).map(|k| [f64::from(k), f64::from(k) + 2.0 * f64::from(k * k * 7 % 11)]).collect();
+        let mirrored: Vec<[f64; 2]> = points.iter().map(|p| [p[0], -p[1]]).collect();
+        let [a, b] = [points, mirrored].map(|points| theil_sen(&points).unwrap());
+        assert!(a.slope == 1.0 && a.interval == [-2.0 / 3.0, 8.0 / 3.0], "{a:?}");
+        assert_eq!(a.slope, -b.slope);
+        assert_eq!(a.interval, [-b.interval[1], -b.interval[0]]);
+    }
 
     #[test]
     fn students_t_is_that_of_the_tables() {

@@ -8,7 +8,7 @@
 //! the frame before, also that of contacts which have ended since. A run without contacts may hold the same sums for
 //! whole walls (`/wall_forces`): these are taken then, without normal forces and sliding work.
 
-use crate::observer::Observer;
+use crate::observer::{Observer, is_between};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Contact, Contacts, ForceOnWall, MeasureError, Partner, Run, RunMessage, WallForces};
@@ -66,7 +66,7 @@ impl WallContactFilter {
 
     /// Whether a time [s] is looked at.
     pub fn holds(&self, time: f64) -> bool {
-        self.between.0 <= time && time <= self.between.1
+        is_between(self.between, time)
     }
 }
 

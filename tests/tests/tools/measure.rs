@@ -213,7 +213,7 @@ fn the_ledger_closes_where_no_grain_enters() {
     }
     assert_eq!(column(&done, "bonds"), [0.5; 4]);
     assert!((column(&done, "closure_relative")[3] + 0.00025).abs() < 1e-12, "of the 4 J exchanged");
-    assert!(done.stderr.contains("1 intervals left out"), "{}", done.stderr);
+    assert!(done.stderr.contains("1 interval left out"), "{}", done.stderr);
     assert!(std::fs::read(folder.path().join("energy.svg")).unwrap().starts_with(b"<svg"));
 }
 

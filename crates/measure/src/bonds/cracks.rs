@@ -1,7 +1,7 @@
 //! Cracks: bonds that broke, where and when each did.
 
 use super::{Break, break_of};
-use crate::observer::{Observer, SLACK};
+use crate::observer::{Observer, is_between};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::table::Columns;
 use crate::{MeasureError, Run, RunMessage};
@@ -98,8 +98,7 @@ impl Observer for CrackList {
             self.has_bonds |= matches!(message, RunMessage::Bonds(_));
             return Ok(());
         };
-        let (from, until) = self.between;
-        for c in cracks.iter().filter(|c| from - SLACK <= c.time && c.time <= until + SLACK) {
+        for c in cracks.iter().filter(|c| is_between(self.between, c.time)) {
             self.count[c.by as usize] += 1;
             self.energy += c.energy;
             self.span = Some((self.span.map_or(c.time, |s| s.0), c.time));

@@ -4,6 +4,7 @@ use super::{Bonds, Fragments, NO_BONDS};
 use crate::observer::{Observer, Which};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
+use geom::counted;
 
 /// Counts bonds.
 pub struct BondNumbers {
@@ -100,8 +101,10 @@ impl Observer for BondNumbers {
             .with("largest_fragment", "1", last[9])
             .with("first_break", "s", self.first_break)
             .with("time", "s", last[0]);
-        let unknown = format!("how {} bonds broke is unknown: the run does not say it", last[6]);
-        let gone = format!("{} bonds left the run with their grains and count no more", self.gone);
+        let unknown =
+            format!("how {} broke is unknown: the run does not say it", counted(last[6] as u64, "bond"));
+        let gone = counted(self.gone, "bond");
+        let gone = format!("{gone} left the run together with grains: these counts are of the rest");
         let summary = if last[6] > 0.0 { summary.note(unknown) } else { summary };
         Ok(if self.gone > 0 { summary.note(gone) } else { summary })
     }

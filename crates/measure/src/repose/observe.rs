@@ -4,7 +4,7 @@ use super::{Flank, HeapAngle, HeapOptions, heap_angle};
 use crate::observer::OfFrame;
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{Frame, MeasureError, Run};
-use geom::Vec3;
+use geom::{Vec3, counted};
 
 /// Measures the heap of chosen frames.
 pub struct Repose {
@@ -94,7 +94,8 @@ impl OfFrame for Repose {
                  surface: if they are not of the heap, measure the part below them with --within SHAPE"
             )),
         };
-        let note = format!("{} frames left out: no heap, or a heap that is too small", self.left_out.0);
+        let left_out = counted(self.left_out.0, "frame");
+        let note = format!("{left_out} left out: no heap, or a heap that is too small");
         Ok((Vec::new(), if self.left_out.0 > 0 { summary.note(note) } else { summary }))
     }
 

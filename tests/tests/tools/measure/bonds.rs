@@ -42,7 +42,7 @@ fn broken_bonds_are_counted_by_what_broke_them() {
     is("largest_fragment", [10.0, 6.0, 5.0, 5.0]);
     is("largest_tension", [0.5e6; 4]);
     is("largest_shear", [0.8e6, 0.8e6, 0.7e6, 0.7e6]);
-    for part in ["how 1 bonds broke is unknown", "1 bonds left the run"] {
+    for part in ["how 1 bond broke is unknown", "1 bond left the run"] {
         assert!(done.stderr.contains(part), "{part}: {}", done.stderr);
     }
     assert!(fs::read(folder.path().join("bonds.svg")).unwrap().starts_with(b"<svg"));

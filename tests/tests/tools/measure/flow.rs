@@ -56,12 +56,17 @@ fn a_plane_that_no_grain_has_reached_has_no_flow() {
 #[test]
 fn a_periodic_face_is_no_way_back() {
     let at = |x: f64| Grain { velocity: Vec3::x(), ..grain(0, [x, 0.5, 0.5], 0.01) };
-    let mut made = Made::new("[domain]\nperiodic = [\"x\"]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\n");
-    made.frame(0.0, &[at(0.95)]).frame(0.1, &[at(0.05)]);
-    let folder = saved(made);
-    for (x, passes) in [("0.98", 1.0), ("0", 1.0), ("0.03", 1.0), ("0.5", 0.0), ("0.07", 0.0)] {
-        let done = measure(&folder, &["--flow", &format!("{x},0,0,1,0,0")]);
-        assert_eq!((column(&done, "forward")[0], column(&done, "backward")[0]), (passes, 0.0), "x = {x}");
+    // Corners of the domain may have units.
+    for corners in
+        ["low = [0, 0, 0]\nhigh = [1, 1, 1]", "low = [0, \"0 mm\", 0]\nhigh = [\"1000 mm\", \"100 cm\", 1]"]
+    {
+        let mut made = Made::new(&format!("[domain]\nperiodic = [\"x\"]\n{corners}\n"));
+        made.frame(0.0, &[at(0.95)]).frame(0.1, &[at(0.05)]);
+        let folder = saved(made);
+        for (x, passes) in [("0.98", 1.0), ("0", 1.0), ("0.03", 1.0), ("0.5", 0.0), ("0.07", 0.0)] {
+            let done = measure(&folder, &["--flow", &format!("{x},0,0,1,0,0")]);
+            assert_eq!((column(&done, "forward")[0], column(&done, "backward")[0]), (passes, 0.0), "x = {x}");
+        }
     }
 }
 
