@@ -46,6 +46,9 @@ const MATERIAL_KEYS: [(&str, f64); 3] = [("density", 2500.0), ("young", 1e7), ("
 /// A modulus that a DEM can afford; harder grains seldom change the flow.
 const AFFORDED: f64 = 1e7;
 
+/// Most rolling resistance that is proposed: with more, grains hardly roll at all.
+const MOST_ROLLING: f64 = 1.0;
+
 /// Rolling resistance at which spheres of sliding friction `mu` lie at the angle.
 fn rolling(answers: &Answers, mu: f64) -> f64 {
     let d = answers.size * 1e3;
@@ -109,15 +112,24 @@ fn line(material: &Material, key: &str, other: f64) -> String {
 fn frictions(material: &Material, answers: &Answers) -> String {
     let range = material.ranges.get("sliding_friction").map_or([0.2, 0.8], |r| r.ends);
     let middle = 0.5 * (range[0] + range[1]);
-    let at = |mu: f64| rolling(answers, mu).clamp(0.0, 1.0);
+    let at = |mu: f64| {
+        let asked = rolling(answers, mu);
+        let beyond = if asked > MOST_ROLLING {
+            format!(" (the formula gives {asked:.2}: this friction is too low for the angle)")
+        } else {
+            String::new()
+        };
+        (asked.min(MOST_ROLLING), beyond)
+    };
     let mut text = line(material, "sliding_friction", middle);
+    let (rolling, beyond) = at(middle);
     let _ = writeln!(
         text,
-        "rolling_resistance = {:.3}  # from the angle; it cannot tell rolling from sliding friction:",
-        at(middle)
+        "rolling_resistance = {rolling:.3}  # from the angle{beyond}; it cannot tell rolling from sliding friction:"
     );
     for mu in [range[0], middle, range[1]] {
-        let _ = writeln!(text, "#   sliding_friction {:.2} with rolling_resistance {:.3}", mu, at(mu));
+        let (rolling, beyond) = at(mu);
+        let _ = writeln!(text, "#   sliding_friction {mu:.2} with rolling_resistance {rolling:.3}{beyond}");
     }
     let inside = answers.size >= FITTED[0] && answers.size <= FITTED[1];
     let far = if inside { "" } else { "; this size is outside" };

@@ -175,21 +175,26 @@ fn sensitivities(recipe: &Recipe, end: &StepEnd) -> Vec<PartSensitivity> {
     step.to.iter().zip(&end.fitted.emulators).map(of).collect()
 }
 
-/// Ranks of values, from 0.
+/// Ranks of values, from 0; equal ones have the mean of theirs. A chain stays where it is when a step is refused, so that its values come several times.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-    let mut ranks = vec![0.0; values.len()];
-    order.iter().enumerate().for_each(|(rank, &k)| ranks[k] = rank as f64);
+    let (mut ranks, mut first) = (vec![0.0; values.len()], 0);
+    for equal in order.chunk_by(|a, b| values[*a] == values[*b]) {
+        let mean = first as f64 + 0.5 * (equal.len() - 1) as f64;
+        equal.iter().for_each(|&k| ranks[k] = mean);
+        first += equal.len();
+    }
     ranks
 }
 
-/// Rank correlation: Spearman (1904), doi:10.2307/1412159.
+/// Rank correlation: Spearman (1904), doi:10.2307/1412159; 0 where all values of one are equal.
 pub(crate) fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
-    let (a, b, n) = (ranks(a), ranks(b), a.len() as f64);
-    let mean = 0.5 * (n - 1.0);
-    let product: f64 = a.iter().zip(&b).map(|(a, b)| (a - mean) * (b - mean)).sum();
-    product / (n * (n * n - 1.0) / 12.0)
+    let mean = 0.5 * (a.len() as f64 - 1.0);
+    let [a, b] = [a, b].map(|values| ranks(values).into_iter().map(|rank| rank - mean).collect::<Vec<f64>>());
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let scale = (product(&a, &a) * product(&b, &b)).sqrt();
+    if scale > 0.0 { product(&a, &b) / scale } else { 0.0 }
 }
 
 fn pairs(recipe: &Recipe, end: &StepEnd) -> Vec<Pair> {
@@ -247,5 +252,9 @@ mod tests {
         assert!((rank_correlation(&a, &b) - 1.0).abs() < 1e-12);
         let b: Vec<f64> = b.iter().map(|v| -v).collect();
         assert!((rank_correlation(&a, &b) + 1.0).abs() < 1e-12);
+        // Ties, as SciPy's `spearmanr` has them.
+        let (a, b) = ([1.0, 2.0, 2.0, 3.0, 5.0, 5.0, 5.0], [2.0, 1.0, 1.0, 4.0, 4.0, 6.0, 7.0]);
+        assert!((rank_correlation(&a, &b) - 0.8193821290142088).abs() < 1e-12);
+        assert_eq!(rank_correlation(&[1.0, 1.0, 1.0], &[1.0, 2.0, 3.0]), 0.0);
     }
 }

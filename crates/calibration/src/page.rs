@@ -36,8 +36,9 @@ pub fn html(recipe: &Recipe, judged: &Judged, picture: &str) -> String {
             test.target.as_ref().map_or((0, "–".to_owned()), |t| (t.points.len(), t.origin.clone()));
         let _ = write!(
             page,
-            "<tr><td>{}</td><td>{points} points</td><td>{}</td><td><code>{}</code></td></tr>",
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td><code>{}</code></td></tr>",
             escaped(&test.name),
+            geom::counted(points, "point"),
             escaped(&origin),
             escaped(&test.command)
         );
