@@ -76,7 +76,7 @@ pub use quadratic::Quadratic;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use shape::Shape;
 #[cfg(not(target_arch = "nvptx64"))]
-pub use shown::{Shown, counted};
+pub use shown::{Shown, counted, counted_as};
 #[cfg(not(target_arch = "nvptx64"))]
 pub use spread::least_axis;
 

@@ -24,6 +24,12 @@ pub fn counted(count: impl TryInto<u64>, word: &str) -> String {
     if count == 1 { format!("1 {word}") } else { format!("{count} {word}s") }
 }
 
+/// A number, what it counts, and a verb that goes with one or with several: "1 grain is", "2 grains are".
+pub fn counted_as(count: impl TryInto<u64>, word: &str, [one, several]: [&str; 2]) -> String {
+    let count = count.try_into().unwrap_or(u64::MAX);
+    format!("{} {}", counted(count, word), if count == 1 { one } else { several })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,5 +1,6 @@
 //! Pieces of a mesh, and whether it is a manifold.
 
+use geom::Vec3;
 use geom::mesh::TriMesh;
 use std::collections::HashMap;
 
@@ -22,7 +23,7 @@ pub fn pieces(mesh: &TriMesh) -> Vec<TriMesh> {
         });
         faces[piece].push(*f);
     }
-    faces.into_iter().map(|faces| used(&TriMesh { vertices: mesh.vertices.clone(), faces })).collect()
+    faces.iter().map(|faces| with_used(&mesh.vertices, faces)).collect()
 }
 
 fn root(parent: &mut [u32], mut v: u32) -> u32 {
@@ -35,15 +36,20 @@ fn root(parent: &mut [u32], mut v: u32) -> u32 {
 
 /// Without vertices that no face has.
 pub fn used(mesh: &TriMesh) -> TriMesh {
+    with_used(&mesh.vertices, &mesh.faces)
+}
+
+/// A mesh of some faces, with those of the vertices that they have.
+fn with_used(all: &[Vec3], faces: &[[u32; 3]]) -> TriMesh {
     let mut renamed: HashMap<u32, u32> = HashMap::new();
     let mut vertices = Vec::new();
     let mut name = |v: u32| {
         *renamed.entry(v).or_insert_with(|| {
-            vertices.push(mesh.vertices[v as usize]);
+            vertices.push(all[v as usize]);
             vertices.len() as u32 - 1
         })
     };
-    let faces = mesh.faces.iter().map(|f| f.map(&mut name)).collect();
+    let faces = faces.iter().map(|f| f.map(&mut name)).collect();
     TriMesh { vertices, faces }
 }
 
