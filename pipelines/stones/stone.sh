@@ -1,6 +1,6 @@
 #!/bin/sh
 # Crushes one stone between plates and prints a row for stones.sh: stone.sh DIAMETER SEED
-# Strength is the largest force on the upper plate up to a strain of 4 %, over the square of the diameter (Jaeger 1967, doi:10.1016/0148-9062(67)90001-4).
+# Strength is the largest force on the upper plate up to a strain of 4 %, over the square of the diameter (Jaeger 1967, doi:10.1016/0148-9062(67)90046-0).
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 diameter=$1; seed=$2

@@ -83,3 +83,44 @@ fn no_file_is_too_long_to_read() {
     let long: Vec<String> = long.map(|file| format!("{}: {}", file.display(), lines(file))).collect();
     assert!(long.is_empty(), "above {LONGEST} lines: {long:#?}");
 }
+
+/// The table of `crates/README.md` names each crate of the workspace with the crates that it uses.
+#[test]
+fn arrows_between_crates_are_those_of_their_manifests() {
+    let readme = fs::read_to_string(root().join("crates/README.md")).expect("it is there");
+    let table = readme.split("```").nth(1).expect("a table");
+    let told: Vec<String> = table
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let (text, uses) = line.split_once('→').unwrap_or((line, ""));
+            format!(
+                "{} → {}",
+                text.split(' ').next().unwrap_or_default(),
+                sorted(uses.split(',').map(str::trim))
+            )
+        })
+        .collect();
+    let mut true_ones = Vec::new();
+    let crates: BTreeSet<String> = fs::read_dir(root().join("crates"))
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry"))
+        .filter(|entry| entry.path().join("Cargo.toml").exists())
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    for name in &crates {
+        let manifest =
+            fs::read_to_string(root().join(format!("crates/{name}/Cargo.toml"))).expect("it is there");
+        let (_, rest) = manifest.split_once("\n[dependencies]\n").unwrap_or_default();
+        let section = rest.split("\n[").next().unwrap_or_default();
+        let used = section.lines().map(|line| line.split(['.', ' ']).next().unwrap_or_default());
+        true_ones.push(format!("{name} → {}", sorted(used.filter(|used| crates.contains(*used)))));
+    }
+    let of_crates: Vec<String> = true_ones.iter().filter(|arrow| !told.contains(arrow)).cloned().collect();
+    assert!(of_crates.is_empty(), "crates/README.md tells others than these: {of_crates:#?}");
+    assert_eq!(told.iter().filter(|line| line.len() > 4).count(), crates.len(), "{told:#?}");
+}
+
+fn sorted<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.filter(|name| !name.is_empty()).collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>().join(", ")
+}

@@ -4,7 +4,7 @@
 //! residuals of [`crate::coherence`]. Each change adds a small residual, so that what silhouettes do not tell stays as it was. The distance
 //! stays, which gives the scale.
 
-use crate::coherence::{Ball, mean, refine, residuals};
+use crate::coherence::{Ball, refine, residuals, rms};
 use crate::field::Field;
 use crate::hull::{HullError, View, carve, region};
 use crate::turntable::{Place, Turntable};
@@ -51,7 +51,7 @@ impl Turned {
 /// What was done.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Adjustment {
-    /// Mean square root of the residuals before [m].
+    /// Root mean square of the residuals before [m].
     pub before: f64,
     /// The same after [m].
     pub after: f64,
@@ -81,7 +81,7 @@ pub fn adjust(table: &Turntable, all: &[Turned], camera: bool) -> Result<(Turnta
         found
     };
     let none = vec![0.0; usual.len()];
-    let before = mean(&of(&none));
+    let before = rms(&of(&none));
     let steps: Vec<f64> = usual.iter().map(|u| u / 10.0).collect();
     let (found, after) = refine(&none, &steps, of);
     Ok((changes.table(&found), Adjustment { before, after }))

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Hernández, Schmitt & Cipolla (2007), doi:10.1109/TPAMI.2007.42. Poses are refined by Gauss and Newton's method on these residuals, damped, with
-//! weights 1/(1 + (r/c)²) of which c is three times the mean residual.
+//! weights 1/(1 + (r/c)²); c is three times the mean residual.
 
 use crate::hull::View;
 use geom::Vec3;
@@ -76,7 +76,7 @@ pub(crate) fn touch(views: &[View], order: &[usize], own: usize, pixel: [f64; 2]
     best
 }
 
-/// Parameters that make residuals least, with their mean square root; `steps` are small changes of each parameter.
+/// Parameters that make residuals least, with the root mean square of these; `steps` are small changes of each parameter.
 pub fn refine(start: &[f64], steps: &[f64], of: impl Fn(&[f64]) -> Vec<f64>) -> (Vec<f64>, f64) {
     let mut at = start.to_vec();
     let mut now = of(&at);
@@ -117,11 +117,11 @@ pub fn refine(start: &[f64], steps: &[f64], of: impl Fn(&[f64]) -> Vec<f64>) -> 
             break;
         }
     }
-    let mean = mean(&now);
-    (at, mean)
+    let left = rms(&now);
+    (at, left)
 }
 
-/// Mean square root of residuals.
-pub fn mean(residuals: &[f64]) -> f64 {
+/// Root mean square of residuals.
+pub fn rms(residuals: &[f64]) -> f64 {
     (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt()
 }

@@ -44,6 +44,11 @@ impl View {
     }
 }
 
+/// Numbers of photographs in a sentence.
+fn listed(numbers: &[usize]) -> String {
+    numbers.iter().map(|number| format!("number {number}")).collect::<Vec<_>>().join(", ")
+}
+
 /// Why there is no hull.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)]
@@ -55,7 +60,8 @@ pub enum HullError {
     )]
     Apart,
     #[error(
-        "the silhouettes have no common part: at the best place {seen} of {views} views agree, the others are numbers {others:?}; check the poses, the order of the photographs and the direction of the turn"
+        "the silhouettes have no common part: at the best place {seen} of {views} views agree, not {}; check the poses, the order of the photographs and the direction of the turn",
+        listed(.others)
     )]
     Empty { seen: usize, views: usize, others: Vec<usize> },
     #[error(

@@ -54,9 +54,9 @@ pub enum Method {
 #[serde(rename_all = "kebab-case")]
 pub enum Distance {
     /// Along the surface, where another sheet is nearer than the spacing.
-    #[default]
     Surface,
     /// In space: what is near on another sheet is near.
+    #[default]
     Space,
 }
 

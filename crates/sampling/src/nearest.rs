@@ -59,7 +59,7 @@ pub fn distances(points: &[Vec3]) -> Vec<f64> {
     nearest
 }
 
-/// Median distance [m] to the nearest other point, of every so-manieth point: a quick measure to choose a reach by. `None` when
+/// Median distance [m] to the nearest other point, of an even part of the points: a quick measure to choose a reach by. `None` when
 /// it is zero, or for fewer than two points.
 pub fn typical(points: &[Vec3]) -> Option<f64> {
     if points.len() < 2 {

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Points with few rivals come first, in random order among equals. On a cloud that is hardly denser than the sample, purely random order
-//! (Cook 1986, doi:10.1145/8927.8928; Corsini et al. 2012, doi:10.1109/TVCG.2012.34) wastes space. Taking points with few rivals first (the
+//! (Cook 1986, doi:10.1145/7529.8927; Corsini et al. 2012, doi:10.1109/TVCG.2012.34) wastes space. Taking points with few rivals first (the
 //! minimum-degree rule for independent sets; Halldórsson & Radhakrishnan 1997, doi:10.1007/BF02523693) needs a larger r for the same count
 //! and leaves more even distances, above all if the rivals that are left are counted again and again: the next point is then taken beside
 //! those that are kept, as close as it may be. Where very many are open the count is capped, and the order is purely random.

@@ -141,7 +141,7 @@ fn greater(x: f64, y: f64) -> f64 {
     if x > y { x } else { y }
 }
 
-/// (1), squared, for one half chord t, the other one being s: ((s + t)² (4ζ² + (s − t)²) = 4ζ² P². Several at once, each t between `low`,
+/// (1), squared, for one half chord t, the other one being s: (s + t)² (4ζ² + (s − t)²) = 4ζ² P². Several at once, each t between `low`,
 /// where the left side of (1) is at most P, and `high`, where it is at least P.
 #[derive(Clone, Copy, Default)]
 struct Half {

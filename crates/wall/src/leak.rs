@@ -5,7 +5,7 @@
 //! ```
 //!
 //! ρ is the radius of the sphere that touches three neighbouring wall spheres and has its centre c in their plane. A particle up to
-//! that size passes between them (Apollonius' circle). The voids are the corners of the Voronoi cells of [`crate::star`].
+//! that size passes between them (Apollonius' circle). The voids are the corners of the Voronoi cells of [`geom::star`].
 //!
 //! A gap wider than the largest of these circles cannot be distinguished from the wall's outline. Along the outline, three points
 //! may lie nearly in a row, and the sphere that touches them is outside. So a gap is a notch of the rim, not a leak, if its centre

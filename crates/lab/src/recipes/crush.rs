@@ -3,7 +3,7 @@
 //! ```text
 //! strength = F_max/d²     F_max: from the first crack on     d: distance of the plates when they touch the stone
 //! ```
-//! Jaeger (1967), doi:10.1016/0148-9062(67)90001-4. A stone on a corner may turn before it breaks: what it bore until then is no strength.
+//! Jaeger (1967), doi:10.1016/0148-9062(67)90046-0. A stone on a corner may turn before it breaks: what it bore until then is no strength.
 //! The sample is one cluster in `[[particles]]`; strengths of its bonds are drawn from the seed.
 
 use super::plates::uneven;

@@ -157,8 +157,7 @@ fn turn(
         }
     };
     let turned: Vec<bool> = (0..parts).map(is_turned).collect();
-    for (face, part) in mesh.faces.iter_mut().zip(part_of).filter(|(_, part)| turned[**part as usize]) {
-        let _ = part;
+    for (face, _) in mesh.faces.iter_mut().zip(part_of).filter(|(_, part)| turned[**part as usize]) {
         face.swap(1, 2);
     }
     (open.iter().filter(|open| !**open).count(), turned.iter().filter(|turned| **turned).count())
