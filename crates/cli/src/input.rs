@@ -119,7 +119,8 @@ impl Source {
         match event {
             Err(McapError::Truncated { messages, .. }) if self.path().is_some_and(crate::is_part) => {
                 crate::warn(&format!(
-                    "{self}: the run did not end; this is what it wrote, {messages} messages"
+                    "{self}: the run did not end; this is what it wrote, {}",
+                    geom::counted(messages, "message")
                 ));
                 Ok(None)
             }
@@ -206,7 +207,8 @@ impl Input {
         if marks > 0 {
             let name = self.name();
             crate::warn(&format!(
-                "{name}: {marks} points are marked as removed and are used all the same: cloud-crop removes them"
+                "{name}: {} marked as removed and used all the same: cloud-crop removes what is marked",
+                geom::counted_as(marks, "point", ["is", "are"])
             ));
         }
     }

@@ -63,7 +63,8 @@ pub fn jobs(args: &Args, jobs: &[PathBuf]) -> anyhow::Result<Report> {
     };
     let text: String = jobs.iter().map(line).collect();
     write(&Output { file: args.jobs_file.clone() }, text.as_bytes())?;
-    let summary = format!("{} runs are open: run them, then give the same command again", jobs.len());
+    let summary = geom::counted_as(jobs.len(), "run", ["is", "are"])
+        + " open: run what is open, then give the same command again";
     Ok(Report::new(summary).with("open", jobs.len()))
 }
 

@@ -13,7 +13,8 @@ const TOLD: usize = 8;
 /// What looks like a mistake.
 pub fn warn(counts: &Cropped, rules: &Rules) {
     if counts.not_finite > 0 {
-        cli::warn(&format!("{} points without finite coordinates were dropped", counts.not_finite));
+        let dropped = geom::counted(counts.not_finite, "point");
+        cli::warn(&format!("dropped {dropped} without finite coordinates"));
     }
     for region in counts.regions.iter().filter(|region| region.points == 0) {
         cli::warn(&format!(

@@ -28,6 +28,9 @@ fn cost_curve(args: Args) -> anyhow::Result<Report> {
         );
     }
     args.check()?;
+    if args.norm.is_some() && measure.is_number() {
+        return Err(cli::usage(format!("--norm: the {} of a run is one number: leave it out", measure.name)));
+    }
     let sweep = lay_out(&study)?;
     let open = work::scripts(&sweep.jobs, &sweep.tools, study.work, counter).map_err(refused)?;
     let (runs, kept) = (sweep.jobs.len(), sweep.jobs.len() - open.jobs.len());
@@ -40,10 +43,17 @@ fn cost_curve(args: Args) -> anyhow::Result<Report> {
     if args.print_commands {
         write(Path::new("-"), report::commands(&open.jobs).as_bytes())?;
         let count = open.jobs.len();
-        return Ok(Report::new(format!("{count} runs are left, {kept} are finished; nothing was run")));
+        return Ok(Report::new(format!(
+            "{} left, {} finished; nothing was run",
+            geom::counted(count, "run"),
+            geom::counted(kept, "run")
+        )));
     }
     run(&args, &study, &open)?;
     let judged = judge(&study, &sweep, &measure, counter).map_err(refused)?;
+    if args.norm.is_some() && judged.points.iter().flat_map(|p| &p.samples).all(|s| s.value.len() == 1) {
+        cli::warn(&format!("--norm changed nothing: the {} of a run is one number", measure.name));
+    }
     publish(&args, &judged)?;
     Ok(report::report(&judged, runs, kept))
 }

@@ -132,7 +132,8 @@ fn cloud(from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> anyh
         cloud.scale(factor);
     }
     if dropped > 0 {
-        cli::warn(&format!("{name}: {dropped} points without finite coordinates are not shown"));
+        let dropped = geom::counted(dropped, "point");
+        cli::warn(&format!("{name}: the picture leaves out {dropped} without finite coordinates"));
     }
     let table = table(cloud, args.pick)?;
     let has = |column| table.get(column).is_some();

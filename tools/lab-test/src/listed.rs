@@ -41,6 +41,7 @@ fn own(args: &Args, lab: &Lab, loading: &Loading) -> Vec<String> {
 
 /// What is left to do.
 pub fn report(open: &[&Loading]) -> Report {
-    let summary = format!("{} specimens are open: run them, then give the same command again", open.len());
+    let summary = geom::counted_as(open.len(), "specimen", ["is", "are"])
+        + " open: run what is open, then give the same command again";
     Report::new(summary).with("open", open.len())
 }

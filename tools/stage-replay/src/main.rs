@@ -31,25 +31,24 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
             None => "use --intervals both with a longer --ahead".to_owned(),
         };
         cli::warn(&format!(
-            "{} slow grains start less than the largest diameter before the calculation plane, among other \
-             grains: {cure}, or cut where grains are faster",
-            done.near
+            "{} less than the largest diameter before the calculation plane, among other grains: {cure}, or cut \
+             where grains are faster",
+            geom::counted_as(done.near, "slow grain", ["starts", "start"])
         ));
     }
     if let (1.., Some(ahead)) = (done.far, done.ahead) {
         cli::warn(&format!(
-            "{} grains start up to {} m before the calculation plane, many lengths of the zone, and {} s \
-             before they arrive, because the slow first grain takes this time for the zone: give a shorter --ahead",
-            done.far,
+            "{} up to {} m before the calculation plane, many lengths of the zone, and {} s \
+             before the arrival there, because the slow first grain takes this time for the zone: give a shorter --ahead",
+            geom::counted_as(done.far, "grain", ["starts", "start"]),
             geom::Shown(done.farthest),
             geom::Shown(ahead)
         ));
     }
     if done.amid > 0 {
         cli::warn(&format!(
-            "{} grains are inside the zone when the replay begins, and start there among others: choose a \
-             --from at which no grain is in the zone",
-            done.amid
+            "{} inside the zone, among others, when the replay begins: choose a --from at which no grain is in the zone",
+            geom::counted_as(done.amid, "grain", ["is", "are"])
         ));
     }
     if done.copies > 1 {

@@ -106,7 +106,8 @@ fn posed(args: &Args, names: &[String], path: &Path) -> anyhow::Result<Found> {
     }
     if used.len() < names.len() {
         let other = names.iter().find(|n| pose(n).is_none()).map_or("", String::as_str);
-        cli::warn(&format!("{} photographs have no pose, such as {other}", names.len() - used.len()));
+        let without = geom::counted_as(names.len() - used.len(), "photograph", ["has", "have"]);
+        cli::warn(&format!("{without} no pose, such as {other}"));
     }
     let mut all = Vec::new();
     for (name, silhouette) in used.iter().zip(silhouettes(args, &used)?) {

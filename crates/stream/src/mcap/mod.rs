@@ -40,11 +40,11 @@ pub enum McapError {
     )]
     Magic,
     #[error(
-        "MCAP: truncated after {messages} messages (byte {byte}): the end-of-stream record is missing, the tool that \
+        "MCAP: truncated after message {messages} (byte {byte}): the end-of-stream record is missing, the tool that \
          wrote it did not finish; run it again"
     )]
     Truncated { messages: u64, byte: u64 },
-    #[error("MCAP: near byte {byte}, after {messages} messages: the file is damaged, write or copy it again")]
+    #[error("MCAP: near byte {byte}, after message {messages}: the file is damaged, write or copy it again")]
     Damaged {
         byte: u64,
         messages: u64,
@@ -52,7 +52,7 @@ pub enum McapError {
         source: Box<::mcap::McapError>,
     },
     #[error(
-        "MCAP: near byte {byte}, after {messages} messages: {what}; the file is damaged, write or copy it again"
+        "MCAP: near byte {byte}, after message {messages}: {what}; the file is damaged, write or copy it again"
     )]
     Malformed { byte: u64, messages: u64, what: &'static str },
     #[error(
