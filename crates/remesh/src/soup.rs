@@ -9,11 +9,18 @@ use geom::Vec3;
 use geom::mesh::{TriMesh, closest_point};
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Distances are exact within this many steps.
 const BAND: f64 = 2.0;
 /// Nodes of a block along each side.
 const BLOCK: usize = 6;
+/// A node that is nearer to a triangle, in steps, lies on it: its own winding number says nothing.
+const ON: f64 = 1e-6;
+/// How far from a triangle, in steps, winding numbers say where the inside is.
+const BESIDE: f64 = 0.01;
+/// Most pieces along an edge of a triangle.
+const CUTS: f64 = 400.0;
 /// Where the winding numbers of a block are this far from one half, all of it is on one side.
 const CLEAR: f64 = 0.2;
 
@@ -87,10 +94,22 @@ fn outwards(mesh: &mut TriMesh, piece: &[usize], turned: &mut [bool]) {
 /// Samples whose inside is that of the triangles, with `cells` cells along the longest side.
 pub fn sample(mesh: &TriMesh, cells: usize) -> Samples {
     let (lo, hi) = geom::grid::bounds(&mesh.vertices);
-    let mut samples = Samples::over(&lo, &hi, cells, 3, f32::INFINITY);
-    distances(mesh, &mut samples);
+    let empty = Samples::over(&lo, &hi, cells, 3, f32::INFINITY);
     let winding = Winding::new(mesh);
-    let step = samples.step;
+    let mut samples = empty.clone();
+    distances(mesh, &mut samples);
+    if signed(&mut samples, &winding) {
+        let outline = without_inner(mesh, &winding, samples.step);
+        samples = empty;
+        distances(&outline, &mut samples);
+        signed(&mut samples, &winding);
+    }
+    samples
+}
+
+/// Gives distances their signs; whether triangles lie inside, as those of bodies that overlap do.
+fn signed(samples: &mut Samples, winding: &Winding) -> bool {
+    let (step, inner) = (samples.step, AtomicBool::new(false));
     samples.in_blocks(BLOCK, |block| {
         let far = block.nodes().all(|at| block.value(at).is_infinite());
         let last = block.count.map(|n| n - 1);
@@ -99,14 +118,51 @@ pub fn sample(mesh: &TriMesh, cells: usize) -> Samples {
         for at in block.nodes() {
             let w = side.unwrap_or_else(|| winding.at(&block.place(at)) - 0.5);
             let distance = f64::from(*block.value(at));
-            *block.value(at) = if distance.is_finite() {
+            let mut twice = w > 1.0;
+            *block.value(at) = if distance <= ON * step {
+                twice |= is_inner(winding, &block.place(at), &Vec3::repeat(BESIDE * step));
+                if twice { ON * step } else { 0.0 }
+            } else if distance.is_finite() {
                 distance.copysign(w)
             } else {
                 (4.0 * w * step).clamp(-BAND * step, BAND * step)
             } as f32;
+            if twice {
+                inner.store(true, Relaxed);
+            }
         }
     });
-    samples
+    inner.into_inner()
+}
+
+/// Whether the inside is all around a place, so far from it along each axis.
+fn is_inner(winding: &Winding, place: &Vec3, far: &Vec3) -> bool {
+    let side = |c: usize, a: usize| if c >> a & 1 == 1 { far[a] } else { -far[a] };
+    (0..8).all(|c| winding.at(&(place + Vec3::from([0, 1, 2].map(|a| side(c, a))))) > 0.5)
+}
+
+/// The triangles, cut into pieces of about a step, without those that have the inside on both sides: they are no surface.
+fn without_inner(mesh: &TriMesh, winding: &Winding, step: f64) -> TriMesh {
+    let pieces = |[a, b, c]: [Vec3; 3]| {
+        let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+        let n = (longest / step).ceil().clamp(1.0, CUTS) as usize;
+        let at = move |i: usize, j: usize| a + ((b - a) * i as f64 + (c - a) * j as f64) / n as f64;
+        (0..n).flat_map(move |i| {
+            (0..n - i).flat_map(move |j| {
+                let turned = (i + j + 1 < n).then(|| [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+                [Some([at(i, j), at(i + 1, j), at(i, j + 1)]), turned].into_iter().flatten()
+            })
+        })
+    };
+    let is_outline = |[a, b, c]: &[Vec3; 3]| {
+        let middle = (a + b + c) / 3.0;
+        let beside = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default() * (BESIDE * step);
+        [middle + beside, middle - beside].iter().any(|p| winding.at(p) <= 0.5)
+    };
+    let triangles: Vec<[Vec3; 3]> = mesh.triangles().collect();
+    let kept: Vec<[Vec3; 3]> = triangles.into_par_iter().flat_map_iter(pieces).filter(is_outline).collect();
+    let faces = (0..kept.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    TriMesh { vertices: kept.into_flattened(), faces }
 }
 
 /// The side of a block of which these are the winding numbers of the corners, if it is clear.

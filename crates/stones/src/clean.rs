@@ -73,7 +73,9 @@ pub enum CleanError {
     Faces(usize),
     #[error("{0} points are too few for a surface: a cloud needs at least 100, all around the stone")]
     Points(usize),
-    #[error("the surface encloses no space: scan the other sides of the stone, too")]
+    #[error(
+        "the surface encloses no space: scan the other sides of the stone, too, and give one stone, whose pieces do not lie far apart"
+    )]
     Nothing,
     #[error("the result is no stone: {0}")]
     Stone(#[from] StoneError),

@@ -21,6 +21,13 @@ pub fn warn(input: &cli::Source, changes: &Changes, settings: &CleanSettings) {
             percent(share)
         ));
     }
+    if changes.islands_area > HOLES {
+        cli::warn(&format!(
+            "{input}: {} removed with {} % of the area, apart from the largest: if the stone lies in several pieces, join them before",
+            geom::counted_as(changes.islands, "piece", ["is", "are"]),
+            percent(changes.islands_area)
+        ));
+    }
     let Some(faces) = settings.faces else { return };
     let change = changes.volume / changes.volume_before - 1.0;
     if change.abs() > VOLUME {
@@ -47,12 +54,12 @@ pub fn warn(input: &cli::Source, changes: &Changes, settings: &CleanSettings) {
 pub fn summary(changes: &Changes) -> String {
     let mut said = Vec::new();
     if changes.turned > 0 {
-        said.push(format!("{} faces turned", changes.turned));
+        said.push(format!("{} turned", geom::counted(changes.turned, "face")));
     }
     if changes.islands > 0 {
         said.push(format!(
-            "{} pieces removed ({} % of the area)",
-            changes.islands,
+            "{} removed ({} % of the area)",
+            geom::counted(changes.islands, "piece"),
             percent(changes.islands_area)
         ));
     }
@@ -61,11 +68,11 @@ pub fn summary(changes: &Changes) -> String {
         _ => said.push("the surface was closed and is kept".to_owned()),
     }
     let change = changes.volume / changes.volume_before - 1.0;
-    said.push(format!(
-        "{} faces, {} m³ (thinning changed it by {} %)",
-        changes.faces,
-        Shown(changes.volume),
-        percent(change)
-    ));
+    let thinned = if change == 0.0 {
+        String::new()
+    } else {
+        format!(" (thinning changed it by {} %)", percent(change))
+    };
+    said.push(format!("{} faces, {} m³{thinned}", changes.faces, Shown(changes.volume)));
     said.join("; ")
 }

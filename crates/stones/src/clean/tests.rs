@@ -54,6 +54,18 @@ fn bodies_that_cross_become_one() {
     assert_eq!(changes.islands, 0);
 }
 
+/// Faces of one body lie inside the other, on nodes of the samples: they are no surface.
+#[test]
+fn a_post_that_stands_in_a_slab_stays() {
+    let slab = cuboid(Vec3::zeros(), Vec3::new(0.04, 0.03, 0.01));
+    let post = cuboid(Vec3::new(0.01, 0.01, 0.008), Vec3::new(0.021, 0.019, 0.028));
+    for cells in [Some(40), Some(80), None] {
+        let (found, changes) = clean_mesh(&joined(&slab, &post), &CleanSettings { cells, ..PLAIN }).unwrap();
+        close(found.moments.volume, 1.3782e-5, if cells == Some(40) { 0.05 } else { 0.025 });
+        assert_eq!(changes.islands, 0);
+    }
+}
+
 #[test]
 fn a_cloud_with_and_without_normals_becomes_a_stone() {
     let stone = ball(0.05, 4);
