@@ -231,7 +231,7 @@ impl Observer for ContactNumbers {
         match message {
             RunMessage::Frame(frame) => {
                 self.frames += 1;
-                if !self.which.holds(frame.time) || (!series && frame.is_empty()) {
+                if !self.which.holds(run, frame.time) || (!series && frame.is_empty()) {
                     return Ok(());
                 }
                 if series {
@@ -249,7 +249,7 @@ impl Observer for ContactNumbers {
                 let fits = self.waiting.as_ref().is_some_and(|f| f.time == contacts.time);
                 if fits && series {
                     self.settle(run, Some(&contacts), rows);
-                } else if fits || self.which.holds(contacts.time) {
+                } else if fits || self.which.holds(run, contacts.time) {
                     self.early = Some(contacts);
                 }
             }

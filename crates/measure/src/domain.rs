@@ -4,7 +4,7 @@
 //! ε = ln(h₀/h) by axis,  ε_v = Σ ε,   p = tr σ/3,   q = √(3/2 s_ab s_ab),  s = σ − p 1          compression is positive
 //! ```
 
-use crate::observer::{Observer, is_between};
+use crate::observer::Observer;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::stress::invariants;
 use crate::{MeasureError, Run, RunMessage};
@@ -48,10 +48,10 @@ impl Observer for Domain {
         Head::list(&[&[("time", "s")], &lengths[..], &strains[..], &parts[..]].concat())
     }
 
-    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Domain(record) = message else { return Ok(()) };
         self.seen = true;
-        let Some(stress) = record.stress.filter(|_| is_between(self.between, record.time)) else {
+        let Some(stress) = record.stress.filter(|_| run.is_between(self.between, record.time)) else {
             return Ok(());
         };
         rows.push(row(&record, stress));

@@ -8,7 +8,7 @@
 //! come and go, too: of those only intervals in which no grain enters or leaves count (by the ids of the frames). The energy that the finite time step created is the term `integration`, the error of the run's energy. Both are given
 //! also relative to the energy exchanged so far: the largest change of any other term.
 
-use crate::observer::{Observer, is_between};
+use crate::observer::Observer;
 use crate::run::Ledger;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
@@ -104,13 +104,13 @@ impl Observer for Energy {
         heads
     }
 
-    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         match message {
             RunMessage::Frame(frame) => {
                 let sum = |of: fn(u64) -> u64| frame.id.iter().fold(0, |s: u64, id| s.wrapping_add(of(*id)));
                 self.now = (frame.len(), sum(|id| id), sum(|id| id.wrapping_mul(id)));
             }
-            RunMessage::Ledger(l) if is_between(self.between, l.time) => {
+            RunMessage::Ledger(l) if run.is_between(self.between, l.time) => {
                 rows.push(self.row(l));
             }
             _ => {}

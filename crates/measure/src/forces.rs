@@ -102,10 +102,10 @@ impl Observer for Forces {
         ])
     }
 
-    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Contacts(contacts) = message else { return Ok(()) };
         self.contact_frames += 1;
-        if !self.which.holds(contacts.time) {
+        if !self.which.holds(run, contacts.time) {
             return Ok(());
         }
         if let Which::Between(..) = self.which {

@@ -10,7 +10,7 @@
 //! after the two act on each other, without what gravity adds between that frame and the contact. Frames must be much closer than
 //! the contact lasts: `[output] every = "step"` writes one at every step. A wall is taken to be at rest.
 
-use crate::observer::{NO_CONTACTS, Observer, is_between};
+use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Contact, Frame, MeasureError, Partner, Run, RunMessage};
@@ -176,7 +176,7 @@ impl Impacts {
             self.cut += u64::from(open.deepest > 0.0);
             return None;
         };
-        if !is_between(self.between, start) {
+        if !run.is_between(self.between, start) {
             return None;
         }
         let after = -cubic.ways[1] / (cubic.times[1] - cubic.times[0]);

@@ -36,12 +36,12 @@ impl Which {
     /// All of them.
     pub const ALL: Which = Which::Between(f64::NEG_INFINITY, f64::INFINITY);
 
-    /// Whether a time lies in it.
-    pub fn holds(&self, time: f64) -> bool {
+    /// Whether a time of a run lies in it.
+    pub fn holds(&self, run: &Run, time: f64) -> bool {
         match *self {
             Which::Last => true,
-            Which::At(at) => time <= at + SLACK,
-            Which::Between(from, until) => is_between((from, until), time),
+            Which::At(at) => run.is_between((f64::NEG_INFINITY, at), time),
+            Which::Between(from, until) => run.is_between((from, until), time),
         }
     }
 
@@ -54,11 +54,6 @@ impl Which {
         };
         MeasureError::NoFrame { wanted, first, last }
     }
-}
-
-/// Whether a time lies between two [s], these included.
-pub fn is_between((from, until): (f64, f64), time: f64) -> bool {
-    from - SLACK <= time && time <= until + SLACK
 }
 
 /// A hair of slack [s]: frames have their times in nanoseconds.
@@ -147,7 +142,7 @@ impl<M: OfFrame> Observer for PerFrame<M> {
     fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Frame(frame) = message else { return Ok(()) };
         self.span = Some((self.span.map_or(frame.time, |s| s.0), frame.time));
-        if !self.which.holds(frame.time) {
+        if !self.which.holds(run, frame.time) {
             return Ok(());
         }
         let frame = match &mut self.within {

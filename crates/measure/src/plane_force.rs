@@ -8,7 +8,7 @@
 //! zero where grains before the plane press along its normal. In an upstream stage the grains of the zone are those
 //! behind its storage plane: they feel no force, and their force on the others is counted.
 
-use crate::observer::{NO_CONTACTS, Observer, is_between};
+use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Contact, Contacts, MeasureError, Partner, Run, RunMessage};
@@ -46,9 +46,9 @@ impl PlaneForce {
         }
     }
 
-    fn contacts(&mut self, contacts: &Contacts, rows: &mut Vec<Row>) {
+    fn contacts(&mut self, run: &Run, contacts: &Contacts, rows: &mut Vec<Row>) {
         self.contact_frames += 1;
-        if !is_between(self.between, contacts.time) {
+        if !run.is_between(self.between, contacts.time) {
             return;
         }
         let (count, force) = contacts
@@ -77,14 +77,14 @@ impl Observer for PlaneForce {
         ])
     }
 
-    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         match message {
             RunMessage::Frame(frame) => {
                 self.distances.clear();
                 let distance = frame.position.iter().map(|p| self.plane.signed_distance(p));
                 self.distances.extend(frame.id.iter().copied().zip(distance));
             }
-            RunMessage::Contacts(contacts) => self.contacts(&contacts, rows),
+            RunMessage::Contacts(contacts) => self.contacts(run, &contacts, rows),
             _ => {}
         }
         Ok(())

@@ -12,7 +12,7 @@
 mod observe;
 mod turn;
 
-pub use observe::{Profile, ProfileOptions};
+pub use observe::{BoxOfFrames, Profile, ProfileOptions};
 pub use turn::Turn;
 
 use crate::sheet::Row;

@@ -6,7 +6,7 @@
 //! run: it is counted, and its time is not used. Grains still inside at the end are counted, too: while there are many
 //! of those, the mean is too low (long stays are missing).
 
-use crate::observer::{NO_FRAMES, Observer, is_between};
+use crate::observer::{NO_FRAMES, Observer};
 use crate::path::PreviousFrame;
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::statistics::{Mean, quantile};
@@ -109,7 +109,7 @@ impl Observer for Residence {
 
     fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         if let RunMessage::Frame(frame) = message
-            && is_between(self.between, frame.time)
+            && run.is_between(self.between, frame.time)
         {
             self.frame(run, frame.grains(), rows);
         }

@@ -2,12 +2,13 @@
 
 use crate::bonds::Crack;
 use crate::frame::{Contacts, Crossing, Frame};
+use crate::observer::SLACK;
 use crate::settling::Settled;
 use crate::{Bonds, MeasureError, WallForces, table::Columns};
 use geom::{Plane, Vec3};
 use record::DomainRecord;
 use record::column::{POSITION, RADIUS, WALL};
-use record::metadata::{MATERIALS, OUTLETS, SCENE};
+use record::metadata::{MATERIALS, OUTLETS, SCENE, TIME};
 use record::topic::{
     BODIES, BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES,
     WALLS,
@@ -64,6 +65,8 @@ pub enum RunMessage {
 /// What the messages of a run have said about it so far.
 #[derive(Debug, Clone, Default)]
 pub struct Run {
+    /// Time step [s]; 0 where it is not known.
+    pub step: f64,
     /// Names of the materials.
     pub materials: Vec<String>,
     /// Densities of the materials [kg/m³]; NaN where there is none.
@@ -164,6 +167,7 @@ impl Run {
                 self.materials = all.iter().enumerate().map(name).collect();
                 self.densities = all.iter().map(|m| m["density"].as_f64().unwrap_or(f64::NAN)).collect();
             }
+            TIME => self.step = map.get("dt").and_then(|dt| dt.parse().ok()).unwrap_or(0.0),
             OUTLETS => self.outlets = all.iter().filter_map(plane).collect(),
             SCENE => {
                 let text = map.get("toml").map_or("", String::as_str);
@@ -194,6 +198,12 @@ impl Run {
         let walls: Value = serde_json::from_slice(data).unwrap_or_default();
         let name = |(k, w): (usize, &Value)| w["name"].as_str().map_or(k.to_string(), str::to_owned);
         self.walls = walls.as_array().into_iter().flatten().enumerate().map(name).collect();
+    }
+
+    /// Whether a time lies between two [s], these included. What is due at a time is written at the step nearest to it, so half a step more counts.
+    pub fn is_between(&self, (from, until): (f64, f64), time: f64) -> bool {
+        let slack = 0.5 * self.step + SLACK;
+        from - slack <= time && time <= until + slack
     }
 
     /// Whether a position [m] lies in the periodic box, where there is one; on its faces, too.

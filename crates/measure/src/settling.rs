@@ -4,7 +4,7 @@
 //! unbalanced = ⟨|Σ F|⟩ of grains / ⟨|F|⟩ of contacts        kinetic = Σ ½ m v² + ½ I ω²
 //! ```
 
-use crate::observer::{Observer, is_between};
+use crate::observer::Observer;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
 use record::topic::SETTLING;
@@ -54,9 +54,9 @@ impl Observer for Settling {
         Head::list(&[("time", "s"), ("unbalanced", "1"), ("kinetic", "J")])
     }
 
-    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         if let RunMessage::Settled(s) = message
-            && is_between(self.between, s.time)
+            && run.is_between(self.between, s.time)
         {
             rows.push(vec![s.time, s.unbalanced, s.kinetic]);
             self.last = Some(s);

@@ -117,7 +117,7 @@ impl Observer for Stress {
             _ => return Ok(()),
         };
         self.settle(run, Some(time), rows);
-        let wanted = self.which.holds(time);
+        let wanted = self.which.holds(run, time);
         match message {
             RunMessage::Contacts(contacts) => {
                 self.span = Some((self.span.map_or(time, |span| span.0), time));

@@ -8,7 +8,7 @@
 //! the frame before, also that of contacts which have ended since. A run without contacts may hold the same sums for
 //! whole walls (`/wall_forces`): these are taken then, without normal forces and sliding work.
 
-use crate::observer::{Observer, is_between};
+use crate::observer::Observer;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Contact, Contacts, ForceOnWall, MeasureError, Partner, Run, RunMessage, WallForces};
@@ -64,9 +64,9 @@ impl WallContactFilter {
         self.shape.as_ref().is_none_or(|shape| shape.contains(point))
     }
 
-    /// Whether a time [s] is looked at.
-    pub fn holds(&self, time: f64) -> bool {
-        is_between(self.between, time)
+    /// Whether a time of a run [s] is looked at.
+    pub fn holds(&self, run: &Run, time: f64) -> bool {
+        run.is_between(self.between, time)
     }
 }
 
@@ -193,7 +193,7 @@ impl Observer for WallForce {
             RunMessage::Contacts(contacts) if self.source != Some(Source::Walls) => {
                 self.source = Some(Source::Contacts);
                 rows.extend(self.waiting.take());
-                if self.what.holds(contacts.time) {
+                if self.what.holds(run, contacts.time) {
                     self.waiting = Some(self.of_contacts(run, &contacts)?);
                 }
             }
@@ -207,7 +207,7 @@ impl Observer for WallForce {
             }
             RunMessage::WallForces(forces) if self.source != Some(Source::Contacts) => {
                 self.source = Some(Source::Walls);
-                if self.what.holds(forces.time) {
+                if self.what.holds(run, forces.time) {
                     rows.push(self.of_walls(&forces)?);
                 }
             }

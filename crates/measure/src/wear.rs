@@ -154,7 +154,7 @@ impl Observer for Wear {
     fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Contacts(contacts) = message else { return Ok(()) };
         self.contact_frames += 1;
-        if !self.what.holds(contacts.time) {
+        if !self.what.holds(run, contacts.time) {
             return Ok(());
         }
         if self.cell.is_none() && run.spheres.position.is_empty() {

@@ -1,6 +1,7 @@
 //! From the command line to what measures.
 
 use crate::args::{Args, Bins, GivenShape};
+use crate::around;
 use anyhow::{Context, anyhow};
 use cli::usage;
 use geom::{Vec3, shape::Solid};
@@ -47,7 +48,11 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
         }
         (_, "--profile") => {
             let which = if args.mean { which(args, Which::ALL, between) } else { single };
-            Box::new(PerFrame::new(Profile::new(grid(args)?).context(name)?, which))
+            let mut options = grid(args)?;
+            if options.corners.is_none() && matches!(which, Which::Between(..)) {
+                options.corners = around::corners(args, which, options.turn)?;
+            }
+            Box::new(PerFrame::new(Profile::new(options).context(name)?, which))
         }
         (_, "--segregation") => {
             let kinds = args.kind.clone().map_or(Kinds::Size(args.split), Kinds::Material);

@@ -2,6 +2,7 @@
 //! residence, impacts, bed height.
 
 mod args;
+mod around;
 mod choose;
 mod sheet;
 

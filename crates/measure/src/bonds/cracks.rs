@@ -1,7 +1,7 @@
 //! Cracks: bonds that broke, where and when each did.
 
 use super::{Break, break_of};
-use crate::observer::{Observer, is_between};
+use crate::observer::Observer;
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::table::Columns;
 use crate::{MeasureError, Run, RunMessage};
@@ -93,12 +93,12 @@ impl Observer for CrackList {
         ])
     }
 
-    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Cracks(cracks) = message else {
             self.has_bonds |= matches!(message, RunMessage::Bonds(_));
             return Ok(());
         };
-        for c in cracks.iter().filter(|c| is_between(self.between, c.time)) {
+        for c in cracks.iter().filter(|c| run.is_between(self.between, c.time)) {
             self.count[c.by as usize] += 1;
             self.energy += c.energy;
             self.span = Some((self.span.map_or(c.time, |s| s.0), c.time));

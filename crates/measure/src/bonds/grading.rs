@@ -40,7 +40,8 @@ impl Ends {
     fn look(&mut self, run: &Run, bonds: &Bonds) -> Result<(), MeasureError> {
         let time = bonds.time;
         self.span = Some((self.span.map_or(time, |s| s.0), time));
-        let Some(frame) = self.frame.as_ref().filter(|f| f.time == time && self.which.holds(time)) else {
+        let Some(frame) = self.frame.as_ref().filter(|f| f.time == time && self.which.holds(run, time))
+        else {
             return Ok(());
         };
         let periods = Vec3::from(run.periodic.map(|axis| axis.map_or(0.0, |(low, high)| high - low)));

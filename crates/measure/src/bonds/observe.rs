@@ -77,10 +77,10 @@ impl Observer for BondNumbers {
         ])
     }
 
-    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         if let RunMessage::Bonds(bonds) = message {
             self.span = Some((self.span.map_or(bonds.time, |s| s.0), bonds.time));
-            if self.which.holds(bonds.time) {
+            if self.which.holds(run, bonds.time) {
                 let row = self.row(&bonds);
                 self.last = Some(row.clone());
                 rows.push(row);

@@ -1,9 +1,9 @@
 //! Profiles of chosen frames of a run.
 
 use super::{Grid, Turn};
-use crate::observer::OfFrame;
+use crate::observer::{OfFrame, Which};
 use crate::sheet::{Chart, Head, Panel, Row, Summary};
-use crate::{Frame, MeasureError, Run, table};
+use crate::{Frame, MeasureError, Run, RunMessage, table};
 use geom::Vec3;
 
 /// What the options ask for.
@@ -11,7 +11,7 @@ use geom::Vec3;
 pub struct ProfileOptions {
     /// Number of cells along x, y, z.
     pub bins: [usize; 3],
-    /// Corners of the grid along its axes [m]; `None`: the box around all grains of the first frame.
+    /// Corners of the grid along its axes [m]; `None`: the box around all grains of the first frame. [`BoxOfFrames`] finds that of all frames.
     pub corners: Option<(Vec3, Vec3)>,
     /// Axes of the grid; `None`: those of the scene.
     pub turn: Option<Turn>,
@@ -21,12 +21,43 @@ pub struct ProfileOptions {
     pub fields: Vec<String>,
 }
 
+/// The box around all grains of chosen frames, along the axes of a grid.
+pub struct BoxOfFrames {
+    which: Which,
+    turn: Option<Turn>,
+    corners: Option<(Vec3, Vec3)>,
+}
+
+impl BoxOfFrames {
+    /// Nothing seen yet.
+    pub fn new(which: Which, turn: Option<Turn>) -> BoxOfFrames {
+        BoxOfFrames { which, turn, corners: None }
+    }
+
+    /// Takes what a run has told.
+    pub fn take(&mut self, run: &Run, message: &RunMessage) {
+        let RunMessage::Frame(frame) = message else { return };
+        if frame.is_empty() || !self.which.holds(run, frame.time) {
+            return;
+        }
+        let bounds = self.turn.map_or_else(|| frame.bounds(), |turn| seen_along(frame, turn).bounds());
+        self.corners = Some(self.corners.map_or(bounds, |b| (b.0.inf(&bounds.0), b.1.sup(&bounds.1))));
+    }
+
+    /// Its corners [m]; `None`: no grain.
+    pub fn corners(&self) -> Option<(Vec3, Vec3)> {
+        self.corners
+    }
+}
+
 /// Measures profiles of chosen frames.
 pub struct Profile {
     options: ProfileOptions,
     grid: Option<Grid>,
     bounds: Option<(Vec3, Vec3)>,
     fraction: f64,
+    /// Grains so far, and those of them whose centres are outside a grid that nobody gave.
+    grains: [u64; 2],
 }
 
 impl Profile {
@@ -37,7 +68,7 @@ impl Profile {
     pub fn new(options: ProfileOptions) -> Result<Profile, MeasureError> {
         let (low, high) = options.corners.unwrap_or((Vec3::zeros(), Vec3::repeat(1.0)));
         Grid::new(low, high, options.bins, 0)?;
-        Ok(Profile { options, grid: None, bounds: None, fraction: f64::NAN })
+        Ok(Profile { options, grid: None, bounds: None, fraction: f64::NAN, grains: [0; 2] })
     }
 
     fn fields(&self, frame: &Frame) -> Result<Vec<Vec<f64>>, MeasureError> {
@@ -93,6 +124,11 @@ impl OfFrame for Profile {
             None => Grid::new(low, high, self.options.bins, fields.len())?,
         };
         grid.add(frame, &fields)?;
+        if self.options.corners.is_none() {
+            let outside = |p: &&Vec3| (0..3).any(|k| p[k] < low[k] || p[k] > high[k]);
+            self.grains[0] += frame.len() as u64;
+            self.grains[1] += frame.position.iter().filter(outside).count() as u64;
+        }
         self.fraction = grid.solid_fraction();
         let rows = if self.options.mean { Vec::new() } else { grid.rows() };
         self.grid = Some(grid);
@@ -113,13 +149,25 @@ impl OfFrame for Profile {
             .with("solid_fraction", "1", self.fraction)
             .with("frames", "1", if self.options.mean { grid.frames as f64 } else { 1.0 })
             .with("cell", "m³", grid.cell());
-        let corners: Vec<String> =
-            low.iter().chain(high.iter()).map(|v| geom::Shown(*v).to_string()).collect();
+        let in_words = |(low, high): (Vec3, Vec3)| {
+            let corners = low.iter().chain(high.iter()).map(|v| geom::Shown(*v).to_string());
+            format!("box:{}", corners.collect::<Vec<_>>().join(","))
+        };
         let turned = self.options.turn.map_or(String::new(), |turn| {
             let axis = ["x", "y", "z"][turn.axis];
             format!(", in axes turned by {}° about {axis}", geom::Shown(turn.degrees))
         });
-        Ok((rows, summary.note(format!("grid in box:{}{turned}", corners.join(",")))))
+        let summary = summary.note(format!("grid in {}{turned}", in_words((low, high))));
+        let [all, outside] = self.grains;
+        let all_grains = self.bounds.filter(|_| outside > 0).map(in_words);
+        let missed = all_grains.map(|around| {
+            let percent = 100.0 * outside as f64 / all as f64;
+            format!(
+                "{percent:.1} % of the grains are outside this grid, which is around those of the first frame: give --within \
+                 {around}, or read the run from a file"
+            )
+        });
+        Ok((rows, missed.into_iter().fold(summary, Summary::note)))
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {
