@@ -16,6 +16,7 @@ use crate::{Cloud, largest, outliers};
 use geom::{Shape, Shown, Vec3};
 use rayon::prelude::*;
 use serde::Serialize;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use thiserror::Error;
 
 /// What to keep.
@@ -154,24 +155,60 @@ impl Cropped {
 
 /// Shapes that a point is in, or not.
 pub(crate) struct ShapeTest<'a> {
-    keep: Vec<&'a Shape>,
-    remove: Vec<&'a Shape>,
+    keep: Vec<Tried<'a>>,
+    remove: Vec<Tried<'a>>,
+}
+
+/// A shape, and whether it has held a point that none before it held.
+struct Tried<'a> {
+    shape: &'a Shape,
+    counts: AtomicBool,
+}
+
+impl<'a> Tried<'a> {
+    fn new(shape: &'a Shape) -> Tried<'a> {
+        Tried { shape, counts: AtomicBool::new(false) }
+    }
+
+    #[inline]
+    fn holds(&self, p: &Vec3) -> bool {
+        let holds = self.shape.contains(p);
+        if holds && !self.counts.load(Relaxed) {
+            self.counts.store(true, Relaxed);
+        }
+        holds
+    }
 }
 
 impl ShapeTest<'_> {
     pub fn new(rules: &Rules) -> ShapeTest<'_> {
         let of = |action: Action| rules.regions.iter().filter(move |r| r.action == action).map(|r| &r.shape);
         ShapeTest {
-            keep: rules.keep.iter().chain(of(Action::Keep)).collect(),
-            remove: rules.remove.iter().chain(of(Action::Remove)).collect(),
+            keep: rules.keep.iter().chain(of(Action::Keep)).map(Tried::new).collect(),
+            remove: rules.remove.iter().chain(of(Action::Remove)).map(Tried::new).collect(),
         }
+    }
+
+    /// Shapes without a name that change nothing, once all points were seen.
+    pub fn idle(&self, rules: &Rules) -> Vec<String> {
+        let of = |option: &str, given: usize, tried: &[Tried]| {
+            let idle = tried.iter().take(given).enumerate().filter(|(_, tried)| !tried.counts.load(Relaxed));
+            idle.map(|(k, _)| {
+                let which = if given > 1 { format!(" (number {})", k + 1) } else { String::new() };
+                let before = if k > 0 { " that those before it do not hold" } else { "" };
+                format!("{option}{which} holds no point{before}: compare its coordinates and their unit with those of the cloud")
+            })
+            .collect::<Vec<String>>()
+        };
+        [of("--keep", rules.keep.len(), &self.keep), of("--remove", rules.remove.len(), &self.remove)]
+            .concat()
     }
 
     /// Whether a point [m] stays, as far as shapes say.
     #[inline]
     pub fn stays(&self, p: &Vec3) -> bool {
-        (self.keep.is_empty() || self.keep.iter().any(|s| s.contains(p)))
-            && !self.remove.iter().any(|s| s.contains(p))
+        (self.keep.is_empty() || self.keep.iter().any(|s| s.holds(p)))
+            && !self.remove.iter().any(|s| s.holds(p))
     }
 }
 
@@ -183,7 +220,9 @@ impl ShapeTest<'_> {
 pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), CropError> {
     let mut report = Cropped { points_in: cloud.points.len(), ..Cropped::default() };
     report.regions = rules.regions.iter().map(|region| count(&cloud.points, region)).collect();
-    let mut sieve = Sieve::new(cloud, rules);
+    let judge = ShapeTest::new(rules);
+    let mut sieve = Sieve::new(cloud, &judge);
+    report.idle = judge.idle(rules);
     report.not_finite = sieve.count(|r| r == NOT_FINITE);
     report.outside_shapes = sieve.count(|r| r == Reason::Shape as u8);
     report.marked_before = sieve.count(|r| r & BEFORE != 0);

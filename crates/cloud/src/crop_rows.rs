@@ -65,6 +65,7 @@ pub fn crop_rows<R: Read>(mut blocks: Blocks<R>, rules: &Rules) -> Result<(KeptR
     if report.points_in >= crate::formats::MOST {
         return Err(ReadError::TooMany { points: report.points_in as u64 });
     }
+    report.idle = judge.idle(rules);
     report.points_out = kept.len() / stride;
     report.outside_shapes = report.points_in - report.not_finite - report.points_out;
     let properties = blocks.properties.iter().map(|p| (p.name.clone(), p.kind)).collect();

@@ -1,7 +1,7 @@
 //! Why points go: marks, in memory and as a property of a cloud.
 
 use crate::Cloud;
-use crate::crop::{Rules, ShapeTest};
+use crate::crop::ShapeTest;
 use geom::{Shape, Vec3};
 use rayon::prelude::*;
 use stream::Values;
@@ -50,8 +50,7 @@ pub(crate) const NOT_FINITE: u8 = 32;
 
 impl<'a> Sieve<'a> {
     /// Shapes, and marks that a cloud has.
-    pub fn new(cloud: &'a Cloud, rules: &Rules) -> Sieve<'a> {
-        let judge = ShapeTest::new(rules);
+    pub fn new(cloud: &'a Cloud, judge: &ShapeTest) -> Sieve<'a> {
         let marks = marks(cloud).unwrap_or_default();
         let of = |(i, p): (usize, &Vec3)| match marks.get(i) {
             _ if !p.iter().all(|c| c.is_finite()) => NOT_FINITE,
