@@ -45,5 +45,5 @@ pub use library::{Library, LibraryStone};
 pub use pack::{PackError, PackSettings, Packing, Soil, pack};
 pub use placed::PlacedStone;
 pub use shape::ShapeMeasures;
-pub use stone::{Stone, StoneError};
+pub use stone::{LONGEST, Stone, StoneError};
 pub use variants::{Measured, Variant, variants};

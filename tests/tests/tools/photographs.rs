@@ -27,7 +27,10 @@ fn masks_that_are_there_stay_and_others_are_found() {
     fs::write(folder.join("masks/02.png"), &two[..two.len() / 2]).expect("written");
     fs::copy(folder.join("masks/04.png"), folder.join("masks/03.png")).expect("copied");
     let again = run("");
-    assert!(again.contains("02.png: was drawn or changed elsewhere, and is written over"), "{again}");
+    assert!(
+        again.contains("02.png of an earlier call was drawn or changed elsewhere, and is replaced"),
+        "{again}"
+    );
     assert!(again.contains("12 masks, 9 of them found before"), "{again}");
     assert_eq!([bytes(folder, "masks/01.png"), bytes(folder, "masks/02.png")], [one, two]);
     assert_ne!(bytes(folder, "masks/03.png"), bytes(folder, "masks/04.png"));
@@ -115,4 +118,29 @@ fn tags_give_the_scale_beside_smaller_masks() {
     let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
     let factor = report["tags"]["factor"].as_f64().expect("a factor");
     assert!((factor - 1.0).abs() < 0.005, "{}", done.stderr);
+}
+
+/// A sheet among the masks would be taken for one; a photograph that cannot be read costs no other its mask.
+#[test]
+fn a_sheet_replaces_no_mask_and_a_broken_photograph_stops_no_other() {
+    let made = inputs();
+    let folder = made.path();
+    for (words, told) in [
+        ("--sheet masks/01.png", "lies among the photographs or masks"),
+        ("--sheet photographs/sheet.png", "lies among the photographs or masks"),
+        ("--sheet sheet.jpg", "the sheet is a PNG"),
+        ("--given nowhere", "no such folder"),
+    ] {
+        let done = line(folder, &format!("stone-mask photographs -o masks {words}"));
+        assert!(done.code == 2 && done.stderr.contains(told), "{words}: {}", done.stderr);
+    }
+    let photograph = fs::read_dir(folder.join("photographs")).unwrap().next().unwrap().unwrap().path();
+    let whole = fs::read(&photograph).unwrap();
+    fs::write(&photograph, &whole[..whole.len() / 2]).unwrap();
+    let done = line(folder, "stone-mask photographs -o masks");
+    assert!(done.code == 1 && done.stderr.contains("1 of 12 photographs have no mask"), "{}", done.stderr);
+    assert_eq!(fs::read_dir(folder.join("masks")).unwrap().count(), 11);
+    fs::write(&photograph, whole).unwrap();
+    let done = line(folder, "stone-mask photographs -o masks");
+    assert!(done.code == 0 && done.stderr.contains("12 masks, 11 of them found before"), "{}", done.stderr);
 }

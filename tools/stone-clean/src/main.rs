@@ -45,6 +45,14 @@ fn stone_clean(args: Args) -> anyhow::Result<Report> {
         CleanSettings { faces: args.faces.map(|f| f as usize), cells: args.cells.map(|c| c as usize) };
     let read = input::read(&args.input.read_all()?, args.lengths.factor())
         .with_context(|| args.input.to_string())?;
+    let points = match &read {
+        input::Read::Mesh(mesh) => &mesh.vertices,
+        input::Read::Cloud { points, .. } => points,
+    };
+    let (lo, hi) = geom::grid::bounds(points);
+    if args.lengths.factor().is_none() && (hi - lo).max() > stones::LONGEST {
+        return Err(stones::StoneError::Long((hi - lo).max())).with_context(|| args.input.to_string());
+    }
     let cleaned = match &read {
         input::Read::Mesh(mesh) => clean_mesh(mesh, &settings),
         input::Read::Cloud { points, normals } => clean_cloud(points, normals.as_deref(), &settings),

@@ -91,6 +91,13 @@ fn stone_clump(args: Args) -> anyhow::Result<Report> {
     }
     let settings = args.settings();
     let clump = Clump::of(&stone, &settings).with_context(|| args.mesh.to_string())?;
+    let found = clump.spheres.len();
+    if let Some(wanted) = args.spheres.filter(|n| usize::from(*n) > found && args.method == Choice::Distance)
+    {
+        cli::warn(&format!(
+            "--spheres {wanted}: only {found} are larger than the smallest radius: give a smaller --min-radius, or more --overlap"
+        ));
+    }
     if args.output.has_extension("csv") {
         args.write(words::csv(&clump).as_bytes())?;
     } else if args.output.has_extension("ply") {

@@ -57,9 +57,9 @@ pub fn summary(clump: &Clump) -> String {
     let share = |x: f64| format!("{} %", Shown((1e4 * x).round() / 100.0));
     let fit = clump.fit;
     format!(
-        "{} spheres; of the volume {} is in none, the surface is {} of the diameter away on average and {} at most, moments of inertia of their union differ \
+        "{}; of the volume {} is in none, the surface is {} of the diameter away on average and {} at most, moments of inertia of their union differ \
          by {}",
-        clump.spheres.len(),
+        geom::counted(clump.spheres.len(), "sphere"),
         share(fit.volume),
         share(fit.mean_distance),
         share(fit.most_distance),

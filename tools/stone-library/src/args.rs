@@ -2,6 +2,7 @@
 
 use crate::Entry;
 use clap::Parser;
+use geom::Shown;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "DIR has rock_N_H.ply (stone H of size class N), table.csv and sheet.png. Variants are marked in the table and in their files.\n\n\
@@ -28,11 +29,14 @@ pub struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub variants: Option<u32>,
     /// Sieves between the size classes, growing [m]; class 1 is below the first [default: 1, 2, 4, 8, 16, 31.5, 63, 125 mm and so on]
-    #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = geom::number::positive)]
+    #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = geom::number::positive, allow_hyphen_values = true)]
     sieves: Vec<f64>,
     #[command(flatten)]
     pub seed: cli::Seed,
 }
+
+/// Sieves that are so many times larger or smaller than all stones are in another unit.
+const FAR: f64 = 10.0;
 
 impl Args {
     /// Refuses options that change nothing, and a folder that has a library.
@@ -53,6 +57,20 @@ impl Args {
             );
         }
         Ok(())
+    }
+
+    /// Warns of sieves that are in another unit than the stones, whose sieve sizes are from `lo` to `hi` [m].
+    pub fn warn_of_sieves(&self, lo: f64, hi: f64) {
+        let [Some(first), Some(last)] = [self.sieves.first(), self.sieves.last()] else { return };
+        if *first > FAR * hi || FAR * last < lo {
+            cli::warn(&format!(
+                "--sieves: from {} to {} m, and the stones from {} to {} m: sieves are in metres, 16 mm is 0.016",
+                Shown(*first),
+                Shown(*last),
+                Shown(lo),
+                Shown(hi)
+            ));
+        }
     }
 
     /// rock_N_H: H counts the stones of class N, scans first.

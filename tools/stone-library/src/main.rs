@@ -6,7 +6,7 @@ mod outputs;
 use anyhow::Context;
 use args::Args;
 use cli::Report;
-use geom::Shown;
+use geom::{Shown, counted};
 use std::process::ExitCode;
 use stones::variants::Ranges;
 use stones::{Harmonics, Measured, ShapeMeasures, Stone, variants};
@@ -41,8 +41,14 @@ fn stone_library(args: Args) -> anyhow::Result<Report> {
     let sizes = all.iter().map(|e| e.shape.sieve_size);
     let (lo, hi) = sizes.fold((f64::INFINITY, 0.0f64), |(lo, hi), d| (lo.min(d), hi.max(d)));
     let variants = all.len() - scans;
-    let summary =
-        format!("{scans} scans and {variants} variants, sieve sizes {} to {} m", Shown(lo), Shown(hi));
+    let summary = format!(
+        "{} and {}, sieve sizes {} to {} m",
+        counted(scans, "scan"),
+        counted(variants, "variant"),
+        Shown(lo),
+        Shown(hi)
+    );
+    args.warn_of_sieves(lo, hi);
     Ok(Report::new(summary)
         .with("scans", scans)
         .with("variants", variants)
@@ -81,7 +87,8 @@ fn vary(args: &Args, all: &mut Vec<Entry>, count: usize) -> anyhow::Result<Range
         measured.push(Measured { harmonics, shape: entry.shape });
     }
     if measured.len() < 3 {
-        cli::warn(&format!("variants of {} scans are much alike: scan more stones", measured.len()));
+        let scans = counted(measured.len(), "scan");
+        cli::warn(&format!("variants of {scans} are much alike: scan more stones"));
     }
     let progress = cli::Progress::new("variants", count as u64);
     let made = variants(&measured, count, args.seed.seed(), || progress.add(1)).context("--variants")?;

@@ -61,12 +61,32 @@ impl Args {
         let same = |a: &Path, b: &Path| {
             a == b || a.canonicalize().ok().is_some_and(|a| b.canonicalize().ok() == Some(a))
         };
+        if let Some(given) = self.given.as_ref().filter(|given| !given.is_dir()) {
+            return Err(cli::usage(format!("--given {}: no such folder", given.display())));
+        }
+        if let Some(sheet) =
+            self.sheet.as_ref().filter(|s| s.extension().is_none_or(|e| !e.eq_ignore_ascii_case("png")))
+        {
+            let sheet = sheet.display();
+            return Err(cli::usage(format!(
+                "--sheet {sheet}: the sheet is a PNG: use a name that ends in .png"
+            )));
+        }
         if self.given.as_ref().is_some_and(|given| same(given, &self.folder)) {
             return Err(cli::usage("-o: is the folder of --given: choose another one"));
         }
         let beside = |p: &PathBuf| same(if p.is_dir() { p } else { p.parent().unwrap_or(p) }, &self.folder);
         if self.photographs.iter().any(beside) {
             return Err(cli::usage("-o: is the folder of the photographs: choose another one for the masks"));
+        }
+        let Some(sheet) = &self.sheet else { return Ok(()) };
+        let place = sheet.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let is_of = |p: &PathBuf| p.is_dir() && same(p, place) || same(p, sheet);
+        if same(place, &self.folder) || self.photographs.iter().chain(&self.given).any(is_of) {
+            let sheet = sheet.display();
+            return Err(cli::usage(format!(
+                "--sheet {sheet}: lies among the photographs or masks, and would be taken for one of them: choose another folder"
+            )));
         }
         Ok(())
     }
@@ -93,6 +113,11 @@ impl Args {
             }
         }
         Ok(all)
+    }
+
+    /// Whether an option says how masks are found.
+    pub fn sets_how(&self) -> bool {
+        self.object.is_some() || self.level.is_some() || self.open.is_some() || self.close.is_some()
     }
 
     /// How masks are found.

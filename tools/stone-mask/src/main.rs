@@ -27,11 +27,11 @@ fn stone_mask(args: Args) -> anyhow::Result<Report> {
     let before = done.iter().filter(|d| d.origin == work::Origin::Before).count();
     let doubtful = warned.iter().filter(|w| **w).count();
     let summary = format!(
-        "{} masks{}; the stone takes {} % of a photograph on average{}",
-        done.len(),
+        "{}{}; the stone takes {} % of a photograph on average{}",
+        geom::counted(done.len(), "mask"),
         if before > 0 { format!(", {before} of them found before") } else { String::new() },
         Shown((1000.0 * mean).round() / 10.0),
-        if doubtful > 0 { format!("; {doubtful} are doubtful") } else { String::new() }
+        if doubtful > 0 { format!("; doubtful: {doubtful}") } else { String::new() }
     );
     Ok(Report::new(summary)
         .with("photographs", names)

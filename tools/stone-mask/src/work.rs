@@ -40,7 +40,7 @@ pub fn masks(args: &Args, photographs: &[PathBuf]) -> anyhow::Result<Vec<Done>> 
         .with_context(|| format!("{}: cannot make the folder", args.folder.display()))?;
     let progress = cli::Progress::new("photographs", photographs.len() as u64);
     let settings = args.settings();
-    let mut all = Vec::with_capacity(photographs.len());
+    let (mut all, mut failed) = (Vec::with_capacity(photographs.len()), Vec::new());
     for some in photographs.chunks(AT_ONCE) {
         let done: Vec<anyhow::Result<Done>> = some
             .par_iter()
@@ -51,11 +51,28 @@ pub fn masks(args: &Args, photographs: &[PathBuf]) -> anyhow::Result<Vec<Done>> 
             })
             .collect();
         for done in done {
-            all.push(done?);
+            match done {
+                Ok(done) => all.push(done),
+                Err(error) => failed.push(error),
+            }
         }
+    }
+    if let Some(last) = failed.pop() {
+        failed.iter().for_each(|error| cli::warn(&format!("{error:#}")));
+        let of = format!(
+            "{} of {} have no mask",
+            failed.len() + 1,
+            geom::counted(photographs.len(), "photograph")
+        );
+        return Err(last.context(format!("{of}; those of the others are in {}", args.folder.display())));
     }
     if args.given.is_some() && all.iter().all(|done| done.origin != Origin::Given) {
         return Err(cli::usage("--given: has no mask of the name of a photograph (NAME.png): leave it out"));
+    }
+    if args.sets_how() && all.iter().all(|done| done.origin == Origin::Given) {
+        cli::warn(
+            "--object, --level, --open and --close changed nothing: --given has the masks of all photographs",
+        );
     }
     Ok(all)
 }
@@ -72,7 +89,7 @@ fn one(args: &Args, settings: &MaskSettings, path: &Path) -> anyhow::Result<Done
         Some(Before::Foreign) => {
             let name = name.display();
             cli::warn(&format!(
-                "{name}: was drawn or changed elsewhere, and is written over: --given DIR takes such masks from another folder"
+                "{name} of an earlier call was drawn or changed elsewhere, and is replaced: --given DIR takes such masks from another folder"
             ));
             None
         }

@@ -2,6 +2,7 @@
 
 use crate::inputs::Grains;
 use geom::{Shape, shape::Solid};
+use scene::plan::implausible_density;
 use std::path::PathBuf;
 use stones::PackSettings;
 
@@ -86,6 +87,20 @@ impl Args {
             return Err(cli::usage(
                 "--material: changes nothing without --rigid or --report: the PLY has numbers of materials: leave it out",
             ));
+        }
+        for (option, density) in
+            [("--stone-density", Some(self.stone_density)), ("--soil-density", self.soil_density)]
+        {
+            if let Some((d, (why, cure))) = density.and_then(|d| Some((d, implausible_density(d)?))) {
+                cli::warn(&format!("{option} {} kg/m³ {why}: {cure}", geom::Shown(d)));
+            }
+        }
+        if let Some(path) = self.surfaces.as_ref().filter(|path| path.extension().is_none_or(|e| e != "ply"))
+        {
+            let path = path.display();
+            return Err(cli::usage(format!(
+                "--surfaces {path}: the mesh is PLY: use a name that ends in .ply"
+            )));
         }
         let ending = self.output.path().and_then(std::path::Path::extension);
         if ending.is_none() || self.output.has_extension("ply") {

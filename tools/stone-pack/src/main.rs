@@ -40,11 +40,12 @@ fn stone_pack(args: Args) -> anyhow::Result<Report> {
     if args.crowd.is_some() && packing.classes.iter().all(|c| c.crowded == 0 && c.undone.no_room == 0) {
         cli::warn("--crowd changed nothing: no class lacked room when its tries had run out");
     }
-    outputs::write(&args, &grains, &library, &packing)?;
-    let grain_density = grain_density(&grains, &packing);
+    // The bodies first: the soil alone, with holes where they are, would look whole.
     if let Some(path) = &args.bodies {
         bodies::write(path, args.material(), &grains, &library, &packing)?;
     }
+    outputs::write(&args, &grains, &library, &packing)?;
+    let grain_density = grain_density(&grains, &packing);
     let summary = summary(&packing, &settings, grain_density);
     let names: Vec<String> =
         grains.materials.iter().map(|m| m.0.clone()).chain([args.material().to_owned()]).collect();
@@ -75,8 +76,8 @@ fn summary(packing: &Packing, settings: &stones::PackSettings, grain_density: Op
         format!("; their grains weigh as much with a density of {} kg/m³", Shown(d))
     });
     format!(
-        "{} stones, content {} of {} requested, {tries} tries{density}",
-        packing.placed.len(),
+        "{}, content {} of {} requested, {tries} tries{density}",
+        geom::counted(packing.placed.len(), "stone"),
         Shown(packing.content),
         Shown(settings.content)
     )

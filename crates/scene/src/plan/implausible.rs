@@ -16,10 +16,22 @@ const GRAVITY: [f64; 2] = [1.0, 2000.0];
 /// Widths of a wall over the diameter of the largest grain: a plate smaller than a grain, a plant of 20 000 of them.
 const WIDTHS: [f64; 2] = [1.0, 20_000.0];
 
+/// Why a density of particles [kg/m³] looks like another unit, and the cure.
+pub fn density(d: f64) -> Option<(&'static str, String)> {
+    if d < DENSITIES[0] {
+        Some(("is lighter than any grain", format!("if g/cm³ are meant, write {}", Shown(1e3 * d))))
+    } else if d > DENSITIES[1] {
+        Some(("is heavier than any metal", format!("if g/m³ are meant, write {}", Shown(1e-3 * d))))
+    } else {
+        None
+    }
+}
+
 impl PlanBuilder<'_> {
     /// Adds a warning for each value that looks like another unit.
     pub(super) fn implausible(&mut self) {
         self.materials();
+        self.wall_files();
         self.grains();
         self.gravity();
         self.wall_sizes();
@@ -31,23 +43,38 @@ impl PlanBuilder<'_> {
         };
         for (i, m) in self.scene.keys.material.iter().enumerate() {
             let key = format!("material.{i}.density");
-            let value = |d: f64| format!("{} kg/m³", Shown(d));
-            match m.density {
-                Some(d) if d < DENSITIES[0] => {
-                    let cure = format!("if g/cm³ are meant, write {}", Shown(1e3 * d));
-                    warn(&key, value(d), "is lighter than any grain", &cure);
-                }
-                Some(d) if d > DENSITIES[1] => {
-                    let cure = format!("if g/m³ are meant, write {}", Shown(1e-3 * d));
-                    warn(&key, value(d), "is heavier than any metal", &cure);
-                }
-                _ => {}
+            if let Some((d, (why, cure))) = m.density.and_then(|d| Some((d, density(d)?))) {
+                warn(&key, format!("{} kg/m³", Shown(d)), why, &cure);
             }
             let (key, value) = (format!("material.{i}.young"), format!("{} Pa", Shown(m.young)));
             if m.young < SOFT {
                 warn(&key, value, "is softer than any grain", "give it in Pa: 1 MPa is 1e6, 1 GPa is 1e9");
             } else if m.young > STIFF {
                 warn(&key, value, "is stiffer than diamond", "give it in Pa: 1 GPa is 1e9");
+            }
+        }
+    }
+
+    /// Materials of wall files: another unit, or another number than the scene has, which counts.
+    fn wall_files(&mut self) {
+        for wall in &self.wall_materials {
+            let record = &wall.record;
+            let of_scene = self.scene.keys.material.iter().find(|m| m.name == record.name);
+            if let (None, Some(young)) = (of_scene, record.young.filter(|young| *young < SOFT)) {
+                let (name, young) = (&record.name, Shown(young));
+                self.warnings.push(format!(
+                    "wall file: material '{name}': young = {young} Pa is softer than any grain: give wallgen --young in Pa, 1 GPa is 1e9"
+                ));
+            }
+            let Some(scene) = of_scene else { continue };
+            for (key, unit, scene, file) in
+                [("young", " Pa", scene.young, record.young), ("poisson", "", scene.poisson, record.poisson)]
+            {
+                if let Some(file) = file.filter(|file| *file != scene) {
+                    let (name, scene, file) = (&record.name, Shown(scene), Shown(file));
+                    self.warnings
+                        .push(format!("material '{name}': {key} = {scene}{unit} of the scene, not {file}{unit} of the wall file"));
+                }
             }
         }
     }

@@ -39,7 +39,7 @@ mod zones;
 pub use below::Below;
 pub use builder::PlannedInlet;
 pub use contacts::{dropped, most_specific};
-pub use implausible::SOFT;
+pub use implausible::{SOFT, density as implausible_density};
 pub use insertion::Insertion;
 pub use packing::bounds;
 pub use solids::wall as solid;
@@ -105,10 +105,13 @@ impl Scene {
         let (mut wall_files, mut streams): (Vec<WallFile>, Vec<InletSource>) = (Vec::new(), Vec::new());
         for input in given {
             match input {
-                Input::Walls(file) if wall_files.iter().any(|w| w.hash == file.hash) => {
-                    return Err(SceneError::file(&file.name, "is given twice", "leave one out"));
+                Input::Walls(file) => {
+                    if let Some(other) = wall_files.iter().find(|w| w.hash == file.hash) {
+                        let why = format!("holds the same spheres as {}", other.name);
+                        return Err(SceneError::file(&file.name, why, "leave one out"));
+                    }
+                    wall_files.push(file);
                 }
-                Input::Walls(file) => wall_files.push(file),
                 Input::Inlet(stream) => streams.push(*stream),
             }
         }

@@ -27,14 +27,19 @@ impl PlanBuilder<'_> {
                     }
                     contacts.push(law);
                 }
-                let (Some(at), Some(file)) = (found, friction) else { continue };
-                let scene = friction_of(&contacts[at]);
-                if friction != scene {
-                    let (a, b) = (&self.materials[grain as usize].name, &wall.record.name);
-                    let scene = scene.unwrap_or(0.0);
-                    self.warnings.push(format!(
-                        "{a}–{b}: sliding_friction {scene} of the scene, not {file} of the wall file"
-                    ));
+                let Some(law) = found.map(|at| &contacts[at]) else { continue };
+                let (a, b) = (&self.materials[grain as usize].name, &wall.record.name);
+                let numbers = [
+                    ("sliding_friction", friction_of(law), friction),
+                    ("restitution", law.number("restitution"), wall.record.restitution),
+                ];
+                for (key, scene, file) in numbers {
+                    let (Some(file), scene) = (file, scene.unwrap_or(0.0)) else { continue };
+                    if file != scene {
+                        self.warnings.push(format!(
+                            "{a}–{b}: {key} {scene} of the scene, not {file} of the wall file"
+                        ));
+                    }
                 }
             }
         }
