@@ -18,7 +18,7 @@ use std::{
     num::NonZeroUsize,
     path::{Path, PathBuf},
     process::ExitCode,
-    sync::OnceLock,
+    sync::{Mutex, OnceLock},
     time::Instant,
 };
 use stream::mcap::Provenance;
@@ -77,8 +77,14 @@ pub fn quiet() -> bool {
     INVOCATION.get().is_some_and(|i| i.quiet)
 }
 
-/// Prints a warning on stderr, unless `-q` was given.
+/// All warnings so far, for the report.
+static WARNINGS: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+/// Prints a warning on stderr, unless `-q` was given. The report has it in any case.
 pub fn warn(message: &str) {
+    if let Ok(mut all) = WARNINGS.lock() {
+        all.push(message.to_owned());
+    }
     if let Some(i) = INVOCATION.get().filter(|i| !i.quiet) {
         say(&format!("{}: warning: {message}", i.tool));
     }
@@ -275,6 +281,7 @@ fn write_report(path: &Path, name: &str, report: &Report, start: Instant) -> any
     all.insert("seconds".into(), json!(start.elapsed().as_secs_f64()));
     all.insert("peak_memory_bytes".into(), peak_memory().map_or(Value::Null, |b| json!(b)));
     all.insert("summary".into(), json!(report.summary));
+    all.insert("warnings".into(), WARNINGS.lock().map_or(Value::Null, |all| json!(*all)));
     all.extend(report.fields.clone());
     let mut out = OutputStream::file(path)?;
     serde_json::to_writer_pretty(&mut out, &Value::Object(all)).map_err(std::io::Error::from)?;

@@ -193,8 +193,11 @@ impl Chain<'_> {
             0 | GUARD => Ok(()),
             code => {
                 let said = std::fs::read_to_string(&said).unwrap_or_default();
-                let words =
-                    said.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("it gave no reason");
+                let words = said
+                    .lines()
+                    .rev()
+                    .find(|line| !line.trim().is_empty())
+                    .unwrap_or("it gave no reason; is the disk full?");
                 let words = words.strip_prefix(&format!("{program}: ")).unwrap_or(words).to_owned();
                 Err(LabError::Program {
                     specimen: self.place.specimen.clone(),

@@ -3,7 +3,7 @@
 use crate::error::Result;
 use dem::setup::{Bond, BondKind, BondSprings, Setup};
 use geom::{Vec3, sphere};
-use scene::{Scene, SceneSetupError};
+use scene::{Plan, Scene, SceneSetupError};
 
 /// What is known of the grains of a sample.
 #[derive(Debug, Clone)]
@@ -30,6 +30,8 @@ pub struct Grains {
     pub clumps: bool,
     /// Lowest and highest corner of grains that are packed already [m], and each of them.
     pub packed: Option<Packed>,
+    /// What is doubtful in the sample.
+    pub warnings: Vec<String>,
 }
 
 /// Grains that are packed already.
@@ -61,17 +63,18 @@ impl Grains {
             falls_down: false,
             clumps: false,
             packed: None,
+            warnings: Vec::new(),
         }
     }
 
     /// The grains of a scene.
     pub(crate) fn of(scene: &Scene, packed: bool) -> Result<Grains> {
-        let plan = scene.plan(Vec::new())?;
-        let setup = plan.setup;
+        let Plan { setup, warnings, .. } = scene.plan(Vec::new())?;
         let mut grains = Grains {
             gravity: setup.gravity.norm(),
             falls_down: setup.gravity.z < 0.0 && setup.gravity.x == 0.0 && setup.gravity.y == 0.0,
             clumps: !setup.clumps.placed.is_empty(),
+            warnings,
             ..Grains::none()
         };
         let bodies = bodies(&setup);

@@ -60,6 +60,7 @@ impl Lab {
         let mut request = request;
         recipe.check(&sample, &request)?;
         let (kind, usual) = recipe.stresses();
+        check_repeats(kind, &request.stress)?;
         if request.stress.is_empty() {
             request.stress = usual.to_vec();
         } else if kind == Stresses::None {
@@ -305,6 +306,18 @@ impl Lab {
         });
         Summary { levels, envelope, weibull }
     }
+}
+
+/// Refuses a specimen that would be counted twice, and a step of a path that goes nowhere.
+fn check_repeats(kind: Stresses, all: &[f64]) -> Result<()> {
+    let again = match kind {
+        Stresses::Each => (1..all.len()).find(|&k| all[..k].contains(&all[k])),
+        _ => (1..all.len()).find(|&k| all[k - 1] == all[k]),
+    };
+    again.map_or(Ok(()), |k| {
+        let stress = geom::Shown(all[k]);
+        Err(LabError::Usage(format!("--stress: {stress} Pa is given twice: leave one of them out")))
+    })
 }
 
 /// The folder of programs: that of this one.

@@ -34,6 +34,8 @@ const GRAINS: u64 = 2000;
 pub(crate) const DENSE: f64 = 0.6;
 /// Solid fraction of the spheres around grains before they fall [–].
 const LOOSE: f64 = 0.25;
+/// Most grains of a specimen.
+const MOST_GRAINS: f64 = 1e7;
 /// Inertial number of slow flow: below it friction no longer depends on the rate (GDR MiDi 2004, doi:10.1140/epje/i2003-10153-0) [–].
 pub(crate) const SLOW: f64 = 1e-3;
 /// Thickness of a shear band over the grain diameter [–].
@@ -106,6 +108,12 @@ impl Specimen {
             return Err(LabError::Usage(format!(
                 "the specimen measures {:.4} × {:.4} × {:.4} m, and its largest grains {:.4} m: give a larger --size or more --grains",
                 x, y, z, grains.largest
+            )));
+        }
+        let count = x * y * z * share * DENSE / grains.volume;
+        if count > MOST_GRAINS {
+            return Err(LabError::Usage(format!(
+                "the specimen measures {x:.4} × {y:.4} × {z:.4} m and would have {count:.2e} grains, more than {MOST_GRAINS:e}: give a smaller --size"
             )));
         }
         let mass = rounded(x * y * z * share * DENSE * grains.density);

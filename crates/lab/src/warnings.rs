@@ -34,7 +34,8 @@ impl Lab {
         let cracks = chain.measure("prepare", "prepared-cracks.csv", &["--cracks"])?.column("time")?.len();
         let words = || {
             format!(
-                "{cracks} bonds broke in the preparation, and are whole again in the test: use a smaller --stress, or stronger bonds"
+                "in the preparation {} broken, but whole again in the test: use a smaller --stress, or stronger bonds",
+                geom::counted_as(cracks, "bond", ["was", "were"])
             )
         };
         Ok((cracks > 0).then(words))
@@ -54,10 +55,15 @@ pub(crate) fn still_rises(curve: &Curve) -> Option<String> {
     let rises = part > 0 && last > before && before > first && last > (1.0 + RISE) * first;
     rises.then(|| {
         format!(
-            "the {} still rises when the test ends, by {:.0} % over its last parts: what is called peak is the end of the test, and residual is none: give a larger \
+            "the {} still rises when the test ends{}: what is called peak is the end of the test, and residual is none: give a larger \
              --strain",
             name.replace('_', " "),
-            100.0 * (last / first - 1.0)
+            // Where it was negative before, its rise has no share.
+            if first > 0.0 {
+                format!(", by {:.0} % over its last parts", 100.0 * (last / first - 1.0))
+            } else {
+                String::new()
+            }
         )
     })
 }

@@ -339,6 +339,9 @@ fn what_a_test_cannot_use_is_refused() {
         (&["direct-shear", "sand.toml", "--set", "material.0.yung=1"], "yung"),
         (&["uniaxial", "rock.toml", "--seeds", "2"], "leaves nothing to chance"),
         (&["direct-shear", "missing.toml"], "missing.toml"),
+        (&["triaxial", "sand.toml", "--stress", "100kPa,50kPa,100kPa"], "--stress: 100000 Pa is given twice"),
+        (&["oedometer", "sand.toml", "--stress", "1kPa,2kPa,2kPa"], "--stress: 2000 Pa is given twice"),
+        (&["triaxial", "sand.toml", "--size", "20"], "grains, more than 1e7: give a smaller --size"),
         (&["triaxial", "sand.toml", "--print-scene", "--plot", "a.svg"], "--plot has no effect"),
         (&["triaxial", "sand.toml", "--print-scene", "--rest", "1e-3"], "--rest has no effect on the scene"),
         (
@@ -363,6 +366,16 @@ fn what_a_test_cannot_use_is_refused() {
             "{stderr}"
         );
         said.push(stderr);
+        assert!(!path.join("x.csv").exists(), "a file without a curve");
     }
     assert_eq!(said[0], said[1]);
+    // What is doubtful in the sample is said before anything runs.
+    let light =
+        ["triaxial", "sand.toml", "--set", "material.0.density=2.65", "--print-scene", "-o", "x.toml"];
+    let done = succeed(path, "lab-test", &light);
+    assert!(
+        done.stderr.contains("is lighter than any grain; if g/cm³ are meant, write 2650"),
+        "{}",
+        done.stderr
+    );
 }

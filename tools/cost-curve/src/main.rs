@@ -50,6 +50,9 @@ fn cost_curve(args: Args) -> anyhow::Result<Report> {
         )));
     }
     run(&args, &study, &open)?;
+    for (text, count) in work::warnings(&sweep.jobs) {
+        cli::warn(&format!("{} of {runs} warned: {text}", geom::counted(count, "run")));
+    }
     let judged = judge(&study, &sweep, &measure, counter).map_err(refused)?;
     if args.norm.is_some() && judged.points.iter().flat_map(|p| &p.samples).all(|s| s.value.len() == 1) {
         cli::warn(&format!("--norm changed nothing: the {} of a run is one number", measure.name));

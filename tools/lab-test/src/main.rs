@@ -22,6 +22,7 @@ fn lab_test(args: Args) -> anyhow::Result<Report> {
     args.check()?;
     let toml = args.sample.read_text()?;
     let lab = lay_out(&args, &toml, &args.seeds())?;
+    lab.sample().grains.warnings.iter().for_each(|warning| cli::warn(warning));
     if args.print_scene || args.print_preparation {
         return print_scene(&args, &toml, &lab);
     }

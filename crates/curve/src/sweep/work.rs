@@ -211,6 +211,20 @@ pub fn read(job: &Job, work: Work, counter: Option<Counter>) -> Result<Made, Cur
     Ok(Made::Done { work, seconds, steps, prepared: prepared(job) })
 }
 
+/// What the runs have warned of, and how many of them did: each text once, in the order of the runs.
+pub fn warnings(jobs: &[Job]) -> Vec<(String, usize)> {
+    let mut all: Vec<(String, usize)> = Vec::new();
+    for report in jobs.iter().filter_map(|job| report(job).ok()) {
+        for text in report["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+            match all.iter_mut().find(|known| known.0 == text) {
+                Some(known) => known.1 += 1,
+                None => all.push((text.to_owned(), 1)),
+            }
+        }
+    }
+    all
+}
+
 /// Processor time of the run [s]: of the program, and of the system for it.
 fn cpu(job: &Job) -> Result<f64, CurveError> {
     let file = job.file("cpu");
