@@ -65,7 +65,7 @@ pub fn start(answers: &Answers) -> Result<String> {
     let (d, angle) = (answers.size, answers.repose);
     if !(1e-6..=1.0).contains(&d) {
         return Err(CalibrateError::Usage(format!(
-            "--size {d} m: give the diameter of a grain, such as \"5 mm\""
+            "--size {d} m: give the diameter of a grain from 1e-6 to 1 m, such as \"5 mm\""
         )));
     }
     if !(5.0..=60.0).contains(&angle) {

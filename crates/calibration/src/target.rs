@@ -67,6 +67,7 @@ pub(crate) fn value(asked: &Asked, values: &[f64]) -> Result<Target, String> {
 
 /// The target of one curve or of several specimens; of numbers, where there is no x.
 pub(crate) fn curve(asked: &Asked, files: &[PathBuf], warnings: &mut Vec<String>) -> Result<Target> {
+    check_distinct(files)?;
     let Some(x) = &asked.x else {
         let mut values = Vec::new();
         for file in files {
@@ -117,6 +118,26 @@ struct Measured {
     deviation: Option<Vec<f64>>,
 }
 
+/// Refuses the same data as two specimens: their interval would be too small.
+fn check_distinct(files: &[PathBuf]) -> Result<()> {
+    let mut seen: BTreeMap<String, &Path> = BTreeMap::new();
+    for file in files.iter().filter(|_| files.len() > 1) {
+        let bytes = stream::whole::file(file).map_err(crate::error::file(file, "cannot read the data"))?;
+        if let Some(other) = seen.insert(stream::sha256(&bytes), file) {
+            let (file, other) = (file.display(), other.display());
+            let what = if other.to_string() == file.to_string() {
+                "is given twice".to_owned()
+            } else {
+                format!("holds the same as {other}")
+            };
+            return Err(CalibrateError::Usage(format!(
+                "{file}: {what}: a specimen that counts twice makes intervals too small: leave one out"
+            )));
+        }
+    }
+    Ok(())
+}
+
 fn sheet(file: &Path) -> Result<Sheet> {
     let text = stream::whole::text(file).map_err(crate::error::file(file, "cannot read the data"))?;
     Sheet::parse(&file.display().to_string(), &text)
@@ -165,10 +186,13 @@ fn measured(asked: &Asked, x: &str, file: &Path, warnings: &mut Vec<String>) -> 
         return Err(refuse(
             last,
             format!(
-                "{} points from {} to {}: a curve has two or more",
-                found.curve.len(),
-                shown(asked.from),
-                shown(asked.until)
+                "{}{}: a curve has two or more",
+                geom::counted(found.curve.len(), "point"),
+                if asked.from.is_finite() || asked.until.is_finite() {
+                    format!(" from {} to {}", shown(asked.from), shown(asked.until))
+                } else {
+                    String::new()
+                }
             ),
         ));
     }

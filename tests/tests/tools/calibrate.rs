@@ -226,3 +226,20 @@ fn tests_with_the_same_command_share_its_runs() {
     };
     assert!((value("a") - 1.0).abs() < 0.1 && (value("b") - 3.0).abs() < 0.1, "{found}");
 }
+
+/// The same data as two specimens would make intervals too small, under whatever name.
+#[test]
+fn a_specimen_counts_once() {
+    let folder = inputs();
+    let path = folder.path();
+    fs::copy(path.join("shear.csv"), path.join("copy.csv")).unwrap();
+    let name = read(path, "recipe.toml");
+    let test = name.split("[[test]]\nname = \"").nth(1).unwrap().split('"').next().unwrap().to_owned();
+    for (file, told) in
+        [("shear.csv", "shear.csv: is given twice"), ("copy.csv", "copy.csv: holds the same as")]
+    {
+        let (one, other) = (format!("{test}=shear.csv"), format!("{test}={file}"));
+        let done = tool(path, "calibrate", &["recipe.toml", "--data", &one, "--data", &other, "-o", "x.csv"]);
+        assert!(done.code == 1 && done.stderr.contains(told), "{}: {}", done.code, done.stderr);
+    }
+}

@@ -136,6 +136,15 @@ fn refuse_idle(text: &Text, keys: &RecipeKeys, steps: &[Step]) -> Result<()> {
             return Err(text.refuse(&given.span(), message));
         }
     }
+    for (k, key) in keys.parameter.iter().enumerate() {
+        let start =
+            key.get_ref().start.as_ref().filter(|_| steps.first().is_some_and(|s| s.fit.contains(&k)));
+        if let Some(start) = start {
+            let message =
+                "start: changes nothing: the first step fits the parameter; leave it out, or give it a prior";
+            return Err(text.refuse(&start.span(), message));
+        }
+    }
     let more = |step: &Step| step.first < step.trials;
     let of_step =
         |(key, step): (&&StepKeys, &Step)| key.batch.as_ref().filter(|_| !more(step)).map(Spanned::span);
