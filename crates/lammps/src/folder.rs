@@ -131,6 +131,11 @@ pub fn same(deck: &Deck, setup: &Setup, folder: &Path) -> Result<()> {
     }
 }
 
+/// Whether a folder has a deck.
+pub fn has_deck(folder: &Path) -> bool {
+    folder.join(INPUT).exists()
+}
+
 /// Whether a deck in a folder has run there.
 pub fn has_run(folder: &Path) -> bool {
     STATES.iter().chain(&DUMPS).any(|name| folder.join(name).exists())

@@ -97,6 +97,14 @@ impl Prepared {
         folder::ready(&self.deck, &self.setup, folder)
     }
 
+    /// Refuses a folder whose deck is that of another scene; one without a deck says nothing.
+    ///
+    /// # Errors
+    /// Where they differ.
+    pub fn compare(&self, folder: &Path) -> Result<()> {
+        if folder::has_deck(folder) { folder::same(&self.deck, &self.setup, folder) } else { Ok(()) }
+    }
+
     /// Files of the deck that its input script reads.
     pub fn files(&self) -> Vec<&'static str> {
         self.deck.files()

@@ -10,6 +10,7 @@
 //! after the two act on each other, without what gravity adds between that frame and the contact. Frames must be much closer than
 //! the contact lasts: `[output] every = "step"` writes one at every step. A wall is taken to be at rest.
 
+use crate::cubic::Cubic;
 use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::statistics::Mean;
@@ -32,7 +33,12 @@ struct OpenContact {
     deepest: f64,
     overlap: f64,
     normal: Vec3,
+    /// Frames in which it was seen.
+    frames: u64,
 }
+
+/// Frames that a contact should be seen in, unless one is written at every step.
+const FRAMES: u64 = 5;
 
 /// Positions and velocities at one time, by id.
 #[derive(Debug, Default)]
@@ -58,53 +64,6 @@ impl Moment {
     }
 }
 
-/// An overlap between two frames.
-struct Cubic {
-    times: [f64; 2],
-    /// Overlaps [m], and what they would grow by at their speed [m].
-    ends: [f64; 2],
-    ways: [f64; 2],
-}
-
-impl Cubic {
-    fn at(&self, tau: f64) -> f64 {
-        let rest = 1.0 - tau;
-        self.ends[0] * (1.0 + 2.0 * tau) * rest * rest
-            + self.ways[0] * tau * rest * rest
-            + self.ends[1] * tau * tau * (3.0 - 2.0 * tau)
-            - self.ways[1] * tau * tau * rest
-    }
-
-    /// When it passes zero [s], which the ends must lie on both sides of; else the nearer end.
-    fn zero(&self) -> f64 {
-        let positive = self.ends[0] > 0.0;
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..50 {
-            let middle = 0.5 * (low + high);
-            *(if (self.at(middle) > 0.0) == positive { &mut low } else { &mut high }) = middle;
-        }
-        self.times[0] + high * (self.times[1] - self.times[0])
-    }
-
-    /// Its highest value, found by thirds where it rises at the start and falls at the end.
-    fn highest(&self) -> f64 {
-        let ends = self.ends[0].max(self.ends[1]);
-        if !(self.ways[0] > 0.0 && self.ways[1] < 0.0) {
-            return ends;
-        }
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..60 {
-            let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-            if self.at(a) < self.at(b) {
-                low = a;
-            } else {
-                high = b;
-            }
-        }
-        self.at(0.5 * (low + high)).max(ends)
-    }
-}
-
 /// Watches contacts begin and end.
 pub struct Impacts {
     between: (f64, f64),
@@ -115,6 +74,8 @@ pub struct Impacts {
     contact_frames: u64,
     /// Contacts whose start or end was not seen.
     cut: u64,
+    /// Contacts that few frames show.
+    coarse: u64,
 }
 
 impl Impacts {
@@ -127,6 +88,7 @@ impl Impacts {
             rows: Default::default(),
             contact_frames: 0,
             cut: 0,
+            coarse: 0,
         }
     }
 
@@ -154,7 +116,9 @@ impl Impacts {
             deepest: 0.0,
             overlap,
             normal,
+            frames: 0,
         });
+        open.frames += 1;
         if let Some(cubic) = cubic {
             let speed = cubic.ways[0] / (cubic.times[1] - cubic.times[0]);
             open.before = open.before.or(old.is_none().then_some(speed));
@@ -183,6 +147,13 @@ impl Impacts {
         let lasted = open.end.unwrap_or_else(|| cubic.zero()) - start;
         let deepest = open.deepest.max(cubic.highest());
         let restitution = after / before;
+        if !(restitution > 0.0) {
+            // They still come closer: between these frames more has happened.
+            self.cut += 1;
+            return None;
+        }
+        let apart = cubic.times[1] - cubic.times[0];
+        self.coarse += u64::from(open.frames < FRAMES && apart > 1.5 * run.step);
         for (list, value) in self.rows.iter_mut().zip([lasted, deepest, restitution]) {
             list.push(value);
         }
@@ -259,6 +230,11 @@ impl Observer for Impacts {
             .with("restitution", "1", restitution)
             .with("largest_overlap", "m", self.rows[1].iter().copied().fold(0.0, f64::max))
             .with("impacts", "1", self.rows[0].len() as f64);
+        let coarse = format!(
+            "{} of these lasted fewer than {FRAMES} frames, so the numbers are rough: write more, at best [output] every = \"step\"",
+            self.coarse
+        );
+        let summary = if self.coarse > 0 { summary.note(coarse) } else { summary };
         let cut = self.cut + self.open.len() as u64;
         let left_out = counted(cut, "contact");
         let note =

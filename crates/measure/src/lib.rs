@@ -12,6 +12,7 @@ pub mod bonds;
 mod cells;
 mod clumped;
 pub mod coordination;
+mod cubic;
 pub mod cylinder;
 pub mod domain;
 pub mod energy;

@@ -42,7 +42,7 @@ impl OfFrame for Track {
     fn heads(&self) -> Vec<Head> {
         let metres = ["x", "y", "z"].map(|name| (name, "m"));
         let speeds = ["vx", "vy", "vz", "speed"].map(|name| (name, "m/s"));
-        Head::list(&[&[("time", "s"), ("id", "")], &metres[..], &[("way", "m")], &speeds[..]].concat())
+        Head::list(&[&[("time", "s"), ("id", "1")], &metres[..], &[("way", "m")], &speeds[..]].concat())
     }
 
     fn measure(&mut self, _: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {

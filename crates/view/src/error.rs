@@ -36,7 +36,9 @@ pub enum ViewError {
         value: f64,
     },
     /// Nothing at all to draw.
-    #[error("nothing to show: the inputs contain no sphere and no point")]
+    #[error(
+        "nothing to show: no sphere and no point in the inputs, or in the time that --from, --to and --every choose"
+    )]
     Empty,
     /// A page beyond its limit, though every frame but two is left out.
     #[error(

@@ -337,3 +337,35 @@ fn the_same_bytes_for_any_number_of_threads() {
         assert_eq!(one, many, "{options:?}");
     }
 }
+
+/// A frame that is due at 0.3 s is written at the step nearest to it.
+#[test]
+fn times_are_those_that_frames_are_due_at() {
+    let mut made = Made::new("gravity = [0, 0, -9.81]\n");
+    made.record("time", &[("dt", "0.001"), ("start", "0"), ("end", "1")]);
+    for (time, z) in [(0.0, 1.0), (0.1004, 2.0), (0.1996, 3.0), (0.3003, 4.0)] {
+        made.frame(time, &[grain(0, [0.0, 0.0, z], 0.01)]);
+    }
+    let folder = saved(made);
+    let times = |words: &[&str]| column(&measure(&folder, &[&["--bed-height"], words].concat()), "time");
+    assert_eq!(times(&["--time", "0.1"]), [0.1004]);
+    assert_eq!(times(&["--time", "0.3"]), [0.3003]);
+    assert_eq!(times(&["--time", "0.099"]), [0.0]);
+    assert_eq!(times(&["--from", "0.2", "--until", "0.3"]), [0.1996, 0.3003]);
+}
+
+/// Grains that leave the box of the first frame are in the profile of a file; of a pipe it is said what is not.
+#[test]
+fn a_mean_profile_is_around_the_grains_of_all_frames() {
+    let mut made = Made::new("gravity = [0, 0, -9.81]\n");
+    made.frame(0.0, &[grain(0, [0.0; 3], 0.01), grain(1, [0.1, 0.0, 0.0], 0.01)]);
+    made.frame(0.1, &[grain(0, [0.0; 3], 0.01), grain(1, [0.5, 0.0, 0.0], 0.01)]);
+    let folder = saved(made);
+    let words = ["--profile", "--axis", "x", "--bins", "2", "--mean"];
+    let file = measure(&folder, &words);
+    assert!((column(&file, "grains").iter().sum::<f64>() - 2.0).abs() < 1e-9);
+    assert!(!file.stderr.contains("outside this grid"), "{}", file.stderr);
+    let piped = line(folder.path(), &format!("cat run.mcap | dem-measure {}", words.join(" ")));
+    assert!(piped.stderr.contains("25.0 % of the grains are outside this grid"), "{}", piped.stderr);
+    assert!(piped.stderr.contains("--within box:-0.01,-0.01,-0.01,0.51,0.01,0.01"), "{}", piped.stderr);
+}

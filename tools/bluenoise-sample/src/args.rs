@@ -25,7 +25,7 @@ pub struct Args {
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     /// Lowest and highest number of kept points per area [1/m²]
-    #[arg(long, value_name = "LO,HI", value_parser = density)]
+    #[arg(long, value_name = "LO,HI", allow_hyphen_values = true, value_parser = density)]
     density: Option<(f64, f64)>,
     /// How points are chosen
     #[arg(long, value_enum, default_value = "poisson")]
@@ -99,6 +99,9 @@ impl Args {
         };
         if let Choice::Grid = self.method {
             self.seed.none("--method grid")?;
+            if distance == Distance::Surface {
+                return Err(cli::usage("--distance surface: --method grid measures in space: leave it out"));
+            }
         }
         let settings = SampleSettings { amount, method, distance, seed: self.seed.seed() };
         sampling::check_settings(&settings).map_err(|e| cli::usage(e.to_string()))?;

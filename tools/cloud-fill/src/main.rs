@@ -75,6 +75,9 @@ fn fill(args: Args) -> anyhow::Result<Report> {
     if args.fill == Method::Grid {
         args.seed.none("--fill grid")?;
     }
+    if args.method == Mesher::Volumetric && !args.ball.is_empty() {
+        return Err(cli::usage("--ball: --method volumetric rolls no ball: leave it out"));
+    }
     let mut balls = args.ball;
     balls.sort_by(f64::total_cmp);
     let settings = Settings {

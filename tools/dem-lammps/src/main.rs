@@ -116,6 +116,9 @@ fn dumps<'a>(source: &Source, prepared: &Prepared) -> anyhow::Result<Origin<'a>>
         Some(path) => open(path)?,
         None => vec![Box::new(BufReader::new(source.open()?)) as Box<_>],
     };
+    if let Some(Err(other)) = source.path().and_then(Path::parent).map(|folder| prepared.compare(folder)) {
+        cli::warn(&format!("the dump may be of another scene: {other}"));
+    }
     let mut all = vec![(lammps::FRAMES, frames)];
     for name in prepared.dumps() {
         let Some(path) = source.path() else {

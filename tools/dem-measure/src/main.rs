@@ -61,7 +61,8 @@ fn report(what: &str, rows: u64, summary: &Summary) -> Report {
     let known = summary.values.iter().filter(|(_, value)| value.is_finite());
     let mut line: Vec<String> = known.take(5).map(shown).collect();
     line.extend(summary.notes.iter().cloned());
-    let report = Report::new(format!("{what}: {rows} rows; {}", line.join(", "))).with("rows", rows);
+    let report = Report::new(format!("{what}: {}; {}", geom::counted(rows, "row"), line.join(", ")))
+        .with("rows", rows);
     let report = report.with("measure", what).with("notes", &summary.notes);
     summary.values.iter().fold(report, |report, (head, value)| report.with(&head.name, value))
 }

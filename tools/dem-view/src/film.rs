@@ -28,9 +28,9 @@ pub fn film(args: &Args, output: &Output, format: Format) -> anyhow::Result<Repo
     let [first, last] = [times[0], times[times.len() - 1]];
     let seconds = times.len() as f64 * shown;
     let summary = format!(
-        "{}: {} pictures, t = {first:.3} to {last:.3} s, shown in {seconds:.2} s{}",
+        "{}: {}, t = {first:.3} to {last:.3} s, shown in {seconds:.2} s{}",
         output.name(),
-        times.len(),
+        geom::counted(times.len(), "picture"),
         counts::words(reel.grains())
     );
     Ok(Report::new(summary)

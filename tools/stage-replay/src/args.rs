@@ -57,7 +57,7 @@ pub struct Args {
     /// Replay the record N times, one after the other; the record is held in memory
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
-    /// Time between the starts of two replays [s] (default: the duration of the record)
+    /// Time between the starts of two replays [s] (default: from the first crossing to the end of the run, also where nothing crosses any more)
     #[arg(long, value_name = "S", value_parser = cli::span, requires = "repeat")]
     period: Option<f64>,
     /// Superpose N copies of each grain; this scales the rate, and the file says so; needs --copy-shift or --copy-delay

@@ -105,6 +105,13 @@ impl Args {
                 )));
             }
         }
+        if let (Some(smallest), Some(largest)) = (self.smallest_particle, self.largest_particle)
+            && smallest > largest
+        {
+            return Err(cli::usage(format!(
+                "--smallest-particle {smallest} m: is larger than --largest-particle {largest} m: exchange them"
+            )));
+        }
         let has_flow = self.facing.or(self.flow_at).is_some();
         let placement = match self.place {
             // The spheres of a drawing are where they belong.

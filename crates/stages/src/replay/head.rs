@@ -87,7 +87,7 @@ fn outlet(name: &str, outlets: Option<Map>, index: u16) -> Result<ZoneRecord> {
         return Err(SceneError::file(name, why, "make its scene with stage-split --keep upstream"));
     };
     let Some(json) = outlets.get(&index.to_string()) else {
-        let why = format!("has {} outlets, none with index {index}", outlets.len());
+        let why = format!("has {}, none with index {index}", geom::counted(outlets.len(), "outlet"));
         return Err(SceneError::file(name, why, "--outlet 0 is the first"));
     };
     let wrong = |e| SceneError::file(name, format!("record '{OUTLETS}': {e}"), "run dem-run again");

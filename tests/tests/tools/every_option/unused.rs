@@ -22,6 +22,18 @@ const REFUSED: &[(&str, &str)] = &[
         "--seed: --fill grid leaves nothing to chance: leave it out",
     ),
     (
+        "bluenoise-sample flat.xyz --spacing 0.02 --method grid --distance surface",
+        "--distance surface: --method grid measures in space: leave it out",
+    ),
+    (
+        "cloud-fill flat.xyz --method volumetric --ball 0.1",
+        "--ball: --method volumetric rolls no ball: leave it out",
+    ),
+    (
+        "wallgen flat.xyz --radius 0.01 --material steel --smallest-particle 0.02 --largest-particle 0.01",
+        "--smallest-particle 0.02 m: is larger than --largest-particle 0.01 m",
+    ),
+    (
         "cost-curve s.toml --vary safety=0.2,0.4 --measure bed-height --norm max",
         "--norm: the bed height of a run is one number: leave it out",
     ),
