@@ -63,9 +63,8 @@ pub(crate) fn file<'a>(path: &'a Path, what: &'static str) -> impl FnOnce(io::Er
 
 /// `; did you mean 'x'?` for the nearest known name, or the list of known names.
 pub(crate) fn hint<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> String {
-    let near = known.clone().map(|k| (strsim::damerau_levenshtein(name, k), k)).min();
-    match near.filter(|(d, k)| *d <= 1.max(name.chars().count().max(k.chars().count()) / 3)) {
-        Some((_, k)) => format!("; did you mean '{k}'?"),
+    match scene::nearest(name, known.clone()) {
+        Some(near) => format!("; did you mean '{near}'?"),
         None => format!("; known here: {}", known.collect::<Vec<_>>().join(", ")),
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Cells of a width of radius/√3 hold only connected points, so parts are found by joining cells.
 
-use geom::{Grid, Vec3};
+use geom::{Grid, Parts, Vec3};
 use std::borrow::Cow;
 
 /// Rows of the finite `points` [m] that belong to the part with the most points, in order; of two equal
@@ -114,29 +114,6 @@ impl<'a> Cells<'a> {
         let [a, b] = cells.map(|c| &self.points[self.starts[c] as usize..self.starts[c + 1] as usize]);
         let near = |p: &Vec3, q: &Vec3| (p - q).norm_squared() <= radius * radius;
         a.iter().any(|p| b.iter().any(|q| near(p, q)))
-    }
-}
-
-/// Union-find; the root of a part is its lowest member.
-pub(crate) struct Parts(Vec<u32>);
-
-impl Parts {
-    pub(crate) fn new(count: usize) -> Parts {
-        Parts((0..count as u32).collect())
-    }
-
-    pub(crate) fn root(&mut self, mut i: u32) -> u32 {
-        while self.0[i as usize] != i {
-            let up = self.0[self.0[i as usize] as usize];
-            self.0[i as usize] = up;
-            i = up;
-        }
-        i
-    }
-
-    pub(crate) fn join(&mut self, i: u32, j: u32) {
-        let (a, b) = (self.root(i), self.root(j));
-        self.0[a.max(b) as usize] = a.min(b);
     }
 }
 

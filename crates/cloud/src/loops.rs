@@ -1,8 +1,8 @@
 //! Ends of a surface as loops, each of which may surround a hole.
 
-use crate::largest::Parts;
 use crate::levels::Level;
 use crate::sheet::{End, REACH, Sheet};
+use geom::Parts;
 use geom::{Grid, Shape, Vec3};
 use std::collections::BTreeMap;
 

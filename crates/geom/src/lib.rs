@@ -30,11 +30,15 @@ mod numbers;
 #[cfg(not(target_arch = "nvptx64"))]
 mod outside;
 #[cfg(not(target_arch = "nvptx64"))]
+mod parts;
+#[cfg(not(target_arch = "nvptx64"))]
 pub mod plane;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod prism;
 #[cfg(not(target_arch = "nvptx64"))]
 mod quadratic;
+#[cfg(not(target_arch = "nvptx64"))]
+pub mod quadrature;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod random;
 #[cfg(not(target_arch = "nvptx64"))]
@@ -69,6 +73,8 @@ pub use moments::Moments;
 pub use motion::Motion;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use numbers::NumbersError;
+#[cfg(not(target_arch = "nvptx64"))]
+pub use parts::Parts;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use plane::Plane;
 #[cfg(not(target_arch = "nvptx64"))]

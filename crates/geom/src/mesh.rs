@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use thiserror::Error;
 
 pub use crate::inside::Inside;
+use crate::triangle::solid_angle;
 pub use crate::triangle::{Feature, closest_feature, closest_point};
 
 /// Triangles over shared vertices; seen from outside, corners run anticlockwise.
@@ -133,18 +134,9 @@ impl TriMesh {
     }
 
     /// How often the surface winds around `p` [–]: 1 inside a closed mesh, 0 outside, between in an open one.
-    ///
-    /// Sum of the solid angles: van Oosterom & Strackee (1983), IEEE Trans. Biomed. Eng. 30(2),
-    /// doi:10.1109/TBME.1983.325207.
     pub fn winding(&self, p: Vec3) -> f64 {
-        let angle = |tri: [Vec3; 3]| {
-            let [a, b, c] = tri.map(|v| v - p);
-            let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
-            let across = a.dot(&b.cross(&c));
-            let along = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
-            2.0 * across.atan2(along)
-        };
-        self.triangles().map(angle).sum::<f64>() / (4.0 * std::f64::consts::PI)
+        self.triangles().map(|triangle| solid_angle(&triangle, &p)).sum::<f64>()
+            / (4.0 * std::f64::consts::PI)
     }
 
     /// Whether `p` [m] is inside a closed mesh; looks at every face ([`Inside`] is for many places).

@@ -32,6 +32,12 @@ pub fn orientation([share, a, b]: [f64; 3]) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::new(q * libm::cos(b), i, j, q * libm::sin(b)))
 }
 
+/// The k-th place of a sequence that fills a cube evenly: Kronecker's sequence of the powers of 1/g, g⁴ = g + 1 (Roberts' R₃ sequence).
+pub fn even(k: usize) -> [f64; 3] {
+    const G: f64 = 1.220_744_084_605_759_5;
+    [1, 2, 3].map(|power| (0.5 + (k as f64 + 1.0) / f64::powi(G, power)).fract())
+}
+
 /// A random orientation.
 pub fn random_orientation(random: &mut Pcg64Mcg) -> UnitQuaternion<f64> {
     orientation([unit(random), unit(random), unit(random)])

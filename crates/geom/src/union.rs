@@ -7,8 +7,9 @@
 //! smooth. Error about 10⁻⁹ of each value (tested against closed forms), set by the number of nodes; of more than 64 spheres, whose
 //! triple points are not looked for, 10⁻⁸ (tested by turning them).
 
-use crate::Vec3;
 use crate::moments::{Integrals, Moments};
+use crate::quadrature::gauss_legendre;
+use crate::{Parts, Vec3};
 use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
@@ -24,22 +25,15 @@ type Sphere = (Vec3, f64);
 
 /// Number of parts that overlap within themselves only.
 pub(crate) fn parts(spheres: &[Sphere]) -> usize {
-    let mut part: Vec<usize> = (0..spheres.len()).collect();
-    fn root(part: &[usize], mut k: usize) -> usize {
-        while part[k] != k {
-            k = part[k];
-        }
-        k
-    }
-    for (i, a) in spheres.iter().enumerate() {
-        for (j, b) in spheres.iter().enumerate().skip(i + 1) {
+    let mut parts = Parts::new(spheres.len());
+    for (i, a) in (0..).zip(spheres) {
+        for (j, b) in (0..i).zip(spheres) {
             if (a.0 - b.0).norm() < a.1 + b.1 {
-                let (p, q) = (root(&part, i), root(&part, j));
-                part[p.max(q)] = p.min(q);
+                parts.join(i, j);
             }
         }
     }
-    (0..part.len()).filter(|&k| part[k] == k).count()
+    parts.count()
 }
 
 /// Moments of the union.
@@ -47,7 +41,7 @@ pub(crate) fn moments(spheres: &[Sphere]) -> Moments {
     let origin = spheres.iter().map(|s| s.0).sum::<Vec3>() / spheres.len() as f64;
     let spheres: Vec<Sphere> = spheres.iter().map(|s| (s.0 - origin, s.1)).collect();
     let heights = heights(&spheres);
-    let nodes = gauss_legendre(if heights.len() > MANY { FEW_NODES } else { NODES });
+    let nodes = nodes(if heights.len() > MANY { FEW_NODES } else { NODES });
     let mut sum = Integrals::zero();
     let mut discs = Vec::new();
     for ends in heights.windows(2) {
@@ -224,24 +218,9 @@ fn powers(t: f64) -> [f64; 11] {
     ]
 }
 
-/// Nodes and weights on 0…1, by Newton's method from Tricomi's estimate.
-fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
-    let n = count as f64;
-    let node = |k: usize| {
-        let mut x = libm::cos(PI * (k as f64 + 0.75) / (n + 0.5));
-        let mut slope = 0.0;
-        for _ in 0..20 {
-            let (mut before, mut now) = (1.0, x);
-            for m in 2..=count {
-                let m = m as f64;
-                (before, now) = (now, ((2.0 * m - 1.0) * x * now - (m - 1.0) * before) / m);
-            }
-            slope = n * (x * now - before) / (x * x - 1.0);
-            x -= now / slope;
-        }
-        ((1.0 + x) / 2.0, 1.0 / ((1.0 - x * x) * slope * slope))
-    };
-    (0..count).map(node).collect()
+/// Nodes and weights on 0…1.
+fn nodes(count: usize) -> Vec<(f64, f64)> {
+    gauss_legendre(count).into_iter().map(|(x, weight)| ((1.0 + x) / 2.0, weight / 2.0)).collect()
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 //! touch or one covers the other: A has square-root-like ends there, which h = ½(h₀ + h₁) − ½(h₁ − h₀) cos u makes
 //! smooth in u, so that Gauss–Legendre with 24 nodes in u converges quickly: the error is below 1e-9 of the ball.
 
-use geom::Vec3;
+use geom::{Vec3, quadrature::gauss_legendre};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
@@ -60,27 +60,9 @@ fn integral(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     half * 0.5 * PI * nodes().iter().map(term).sum::<f64>()
 }
 
-/// Nodes and weights of Gauss–Legendre: Newton's method on the Legendre polynomial.
 fn nodes() -> &'static [(f64, f64)] {
-    static NODES_ONCE: OnceLock<Vec<(f64, f64)>> = OnceLock::new();
-    NODES_ONCE.get_or_init(|| {
-        let n = NODES as f64;
-        let node = |k: usize| {
-            let mut x = libm::cos(PI * (k as f64 + 0.75) / (n + 0.5));
-            let mut slope = 1.0;
-            for _ in 0..20 {
-                let (mut p, mut before) = (1.0, 0.0);
-                for j in 1..=NODES {
-                    let j = j as f64;
-                    (p, before) = (((2.0 * j - 1.0) * x * p - (j - 1.0) * before) / j, p);
-                }
-                slope = n * (x * p - before) / (x * x - 1.0);
-                x -= p / slope;
-            }
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        };
-        (0..NODES).map(node).collect()
-    })
+    static ONCE: OnceLock<Vec<(f64, f64)>> = OnceLock::new();
+    ONCE.get_or_init(|| gauss_legendre(NODES))
 }
 
 #[cfg(test)]

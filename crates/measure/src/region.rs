@@ -95,10 +95,8 @@ fn counted(solid: &Solid, centre: &Vec3, radius: f64) -> PartialVolume {
 /// Points on the unit sphere, and in it: Roberts' R₃ sequence, radius from the cube root of one coordinate.
 fn points() -> &'static (Vec<Vec3>, Vec<Vec3>) {
     static POINTS: OnceLock<(Vec<Vec3>, Vec<Vec3>)> = OnceLock::new();
-    // 1/g, 1/g², 1/g³ with g⁴ = g + 1.
-    const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_97];
     let position = |k: usize, radius: &dyn Fn(f64) -> f64| {
-        let [a, b, c] = STEPS.map(|s| (0.5 + s * k as f64).fract());
+        let [a, b, c] = geom::random::even(k);
         let (z, turn) = (2.0 * a - 1.0, 2.0 * PI * b);
         let flat = (1.0 - z * z).sqrt();
         Vec3::new(flat * libm::cos(turn), flat * libm::sin(turn), z) * radius(c)

@@ -1,22 +1,20 @@
 //! Pieces of a mesh, and whether it is a manifold.
 
-use geom::Vec3;
 use geom::mesh::TriMesh;
+use geom::{Parts, Vec3};
 use std::collections::HashMap;
 
 /// Meshes of the pieces that share vertices, in the order of their first faces.
 pub fn pieces(mesh: &TriMesh) -> Vec<TriMesh> {
-    let mut parent: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
+    let mut parts = Parts::new(mesh.vertices.len());
     for &[a, b, c] in &mesh.faces {
-        for (v, w) in [(a, b), (b, c)] {
-            let (v, w) = (root(&mut parent, v), root(&mut parent, w));
-            parent[v.max(w) as usize] = v.min(w);
-        }
+        parts.join(a, b);
+        parts.join(b, c);
     }
     let mut number: HashMap<u32, usize> = HashMap::new();
     let mut faces: Vec<Vec<[u32; 3]>> = Vec::new();
     for f in &mesh.faces {
-        let r = root(&mut parent, f[0]);
+        let r = parts.root(f[0]);
         let piece = *number.entry(r).or_insert_with(|| {
             faces.push(Vec::new());
             faces.len() - 1
@@ -24,14 +22,6 @@ pub fn pieces(mesh: &TriMesh) -> Vec<TriMesh> {
         faces[piece].push(*f);
     }
     faces.iter().map(|faces| with_used(&mesh.vertices, faces)).collect()
-}
-
-fn root(parent: &mut [u32], mut v: u32) -> u32 {
-    while parent[v as usize] != v {
-        parent[v as usize] = parent[parent[v as usize] as usize];
-        v = parent[v as usize];
-    }
-    v
 }
 
 /// Without vertices that no face has.

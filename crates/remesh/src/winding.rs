@@ -10,6 +10,7 @@
 
 use geom::Vec3;
 use geom::mesh::TriMesh;
+use geom::triangle::solid_angle;
 use std::f64::consts::PI;
 
 /// Faces of a leaf.
@@ -94,15 +95,6 @@ fn node(triangles: &[[Vec3; 3]], faces: [usize; 2]) -> Node {
         if weight > 0.0 { centre / weight } else { triangles.first().map_or(Vec3::zeros(), |t| t[0]) };
     let radius = triangles.iter().flatten().map(|p| (p - centre).norm()).fold(0.0, f64::max);
     Node { faces, children: [0; 2], centre, area, radius }
-}
-
-/// Van Oosterom & Strackee (1983), doi:10.1109/TBME.1983.325207.
-fn solid_angle(t: &[Vec3; 3], p: &Vec3) -> f64 {
-    let [a, b, c] = t.map(|v| v - p);
-    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
-    let across = a.dot(&b.cross(&c));
-    let along = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
-    2.0 * libm::atan2(across, along)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@
 //! harmonics: Garboczi (2002), doi:10.1016/S0008-8846(02)00836-0. Where the surface is met more than once, the farthest place counts.
 
 use crate::stone::Stone;
-use geom::Vec3;
+use geom::{Vec3, quadrature::gauss_legendre};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -76,7 +76,7 @@ impl Harmonics {
         if !stone.inside.contains(&stone.moments.centre) {
             return None;
         }
-        let rings = gauss();
+        let rings = gauss_legendre(RINGS);
         let place = |k: usize| {
             let (z, weight) = rings[k / PLACES];
             let phi = TAU * (k % PLACES) as f64 / PLACES as f64;
@@ -173,30 +173,6 @@ fn farthest(stone: &Stone, direction: &Vec3) -> (f64, usize) {
     }
     // A ray in and out again meets it three times.
     (far, times.div_ceil(2))
-}
-
-/// Nodes and weights of Gauss and Legendre's quadrature from −1 to 1.
-fn gauss() -> Vec<(f64, f64)> {
-    let n = RINGS;
-    (0..n)
-        .map(|k| {
-            let mut x = libm::cos(PI * (k as f64 + 0.75) / (n as f64 + 0.5));
-            let mut slope = 1.0;
-            for _ in 0..50 {
-                let (mut p, mut before) = (x, 1.0);
-                for l in 2..=n {
-                    (p, before) = (((2 * l - 1) as f64 * x * p - (l - 1) as f64 * before) / l as f64, p);
-                }
-                slope = n as f64 * (x * p - before) / (x * x - 1.0);
-                let step = p / slope;
-                x -= step;
-                if step.abs() < 1e-15 {
-                    break;
-                }
-            }
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
 }
 
 #[cfg(test)]

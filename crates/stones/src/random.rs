@@ -1,12 +1,6 @@
 //! Random orientations, and numbers that fill a square evenly.
 
-pub(crate) use geom::random::{orientation, random_orientation};
-
-/// The k-th of a sequence that fills a cube evenly: Kronecker's sequence of the powers of 1/g, g⁴ = g + 1 (the R3 sequence).
-pub(crate) fn even(k: usize) -> [f64; 3] {
-    const G: f64 = 1.220_744_084_605_759_5;
-    [1, 2, 3].map(|power| (0.5 + (k as f64 + 1.0) / f64::powi(G, power)).fract())
-}
+pub(crate) use geom::random::{even, orientation, random_orientation};
 
 #[cfg(test)]
 mod tests {

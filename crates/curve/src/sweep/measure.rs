@@ -81,8 +81,8 @@ impl Measure {
             let (name, value) = (name.replace('-', " "), (*value).to_owned());
             return Ok(Measure { name, value, each: false, profile, options });
         }
-        let near = KNOWN.iter().map(|k| (strsim::damerau_levenshtein(k.name, name), k.name)).min();
-        let hint = near.filter(|n| n.0 <= 3).map_or(String::new(), |n| format!("; did you mean '{}'?", n.1));
+        let near = scene::nearest(name, KNOWN.iter().map(|k| k.name));
+        let hint = near.map_or(String::new(), |near| format!("; did you mean '{near}'?"));
         let names: Vec<&str> = KNOWN.iter().map(|k| k.name).collect();
         Err(CurveError::Usage(format!(
             "--measure {text}: is not known{hint}: give one of {}, or 'VALUE of --MEASURE …' of dem-measure",

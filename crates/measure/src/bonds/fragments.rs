@@ -1,6 +1,7 @@
 //! Fragments: grains that whole bonds join, directly or through others.
 
 use super::Bond;
+use geom::Parts;
 use std::collections::HashMap;
 
 /// How many there are, and how large.
@@ -13,36 +14,22 @@ pub struct Fragments {
 }
 
 impl Fragments {
-    /// Of the grains that have bonds, whole or broken (disjoint sets with path halving, joined by size).
+    /// Of the grains that have bonds, whole or broken.
     pub fn of(bonds: &[Bond]) -> Fragments {
-        let mut rows: HashMap<u64, usize> = HashMap::new();
+        let mut rows: HashMap<u64, u32> = HashMap::new();
         let mut row = |id: u64| {
-            let next = rows.len();
+            let next = rows.len() as u32;
             *rows.entry(id).or_insert(next)
         };
-        let pairs: Vec<[usize; 2]> = bonds.iter().map(|b| b.grains.map(&mut row)).collect();
-        let count = rows.len();
-        let (mut parent, mut size): (Vec<usize>, Vec<u64>) = ((0..count).collect(), vec![1; count]);
-        let mut fragments = count as u64;
+        let pairs: Vec<[u32; 2]> = bonds.iter().map(|b| b.grains.map(&mut row)).collect();
+        let mut parts = Parts::new(rows.len());
         for (pair, _) in pairs.iter().zip(bonds).filter(|(_, b)| b.broken.is_none()) {
-            let [a, b] = pair.map(|k| root(&mut parent, k));
-            if a != b {
-                let (small, large) = if size[a] < size[b] { (a, b) } else { (b, a) };
-                parent[small] = large;
-                size[large] += size[small];
-                fragments -= 1;
-            }
+            parts.join(pair[0], pair[1]);
         }
-        Fragments { count: fragments, largest: size.into_iter().max().unwrap_or(0) }
+        let mut size = vec![0; rows.len()];
+        (0..rows.len() as u32).for_each(|grain| size[parts.root(grain) as usize] += 1);
+        Fragments { count: parts.count() as u64, largest: size.into_iter().max().unwrap_or(0) }
     }
-}
-
-fn root(parent: &mut [usize], mut k: usize) -> usize {
-    while parent[k] != k {
-        parent[k] = parent[parent[k]];
-        k = parent[k];
-    }
-    k
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! what it costs grows with the runs, after one look at each pixel.
 
 use super::Raster;
+use geom::Parts;
 use std::ops::Range;
 
 /// The regions of a picture, numbered in the order of their first pixels.
@@ -21,7 +22,7 @@ impl Regions {
     pub fn new(raster: &Raster, value: bool) -> Regions {
         let (width, height) = (raster.width, raster.height);
         let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
-        let mut parent: Vec<usize> = Vec::new();
+        let mut parts = Parts::new(0);
         let mut above = 0..0;
         for (y, row) in raster.pixels.chunks(width.max(1)).enumerate() {
             let first = runs.len();
@@ -32,9 +33,9 @@ impl Regions {
                     above.start += 1;
                 }
                 let own = runs.len();
-                parent.push(own);
+                parts.push();
                 for other in above.clone().take_while(|other| runs[*other].1.start < x) {
-                    join(&mut parent, own, other);
+                    parts.join(own as u32, other as u32);
                 }
                 runs.push((y, from..x));
             }
@@ -44,7 +45,7 @@ impl Regions {
         let mut count = 0;
         for run in 0..runs.len() {
             // The first run of a region is its root.
-            let root = root(&mut parent, run);
+            let root = parts.root(run as u32) as usize;
             region.push(if root == run { count } else { region[root] });
             count += usize::from(root == run);
         }
@@ -80,19 +81,4 @@ impl Regions {
         }
         pixels
     }
-}
-
-/// The first run of the region that a run is known to be in.
-fn root(parent: &mut [usize], mut run: usize) -> usize {
-    while parent[run] != run {
-        parent[run] = parent[parent[run]];
-        run = parent[run];
-    }
-    run
-}
-
-fn join(parent: &mut [usize], a: usize, b: usize) {
-    let (a, b) = (root(parent, a), root(parent, b));
-    let (first, second) = (a.min(b), a.max(b));
-    parent[second] = first;
 }
