@@ -19,7 +19,7 @@ pub fn corners(args: &Args, which: Which, turn: Option<Turn>) -> anyhow::Result<
         return Ok(None);
     }
     let (mut run, mut around) = (Run::default(), BoxOfFrames::new(which, turn));
-    // What is wrong with the file is told when it is measured.
+    // An error of the file is reported when it is measured.
     for event in Reader::new(args.run.open()?) {
         let Ok(event) = event else { break };
         if let Some(message) = run.take(event).with_context(|| args.run.to_string())? {

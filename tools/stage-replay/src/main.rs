@@ -45,10 +45,10 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
             geom::Shown(ahead)
         ));
     }
-    if done.amid > 0 {
+    if done.in_zone > 0 {
         cli::warn(&format!(
             "{} inside the zone, among others, when the replay begins: choose a --from at which no grain is in the zone",
-            geom::counted_as(done.amid, "grain", ["is", "are"])
+            geom::counted_as(done.in_zone, "grain", ["is", "are"])
         ));
     }
     if done.copies > 1 {

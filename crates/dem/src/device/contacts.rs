@@ -110,10 +110,8 @@ impl Contacts {
         work.t.contacts.starts = c.starts.zeros::<u32>(work.device, count + 2)?;
         work.t.contacts.entries = c.entries.room::<u32>(work.device, 2 * slots)?;
         work.t.acts = self.acts.room::<u8>(work.device, slots)?;
-        let images = self.slots.segments.iter().filter(|s| s.with == With::Images);
-        work.t.lists.image = self.image.room::<u8>(work.device, images.map(|s| s.slots.len()).sum())?;
-        let points = self.slots.segments.iter().filter(|s| s.with != With::Particles);
-        work.t.points = self.points.room::<Row>(work.device, points.map(|s| s.slots.len()).sum())?;
+        work.t.lists.image = self.image.room::<u8>(work.device, self.slots.with_images())?;
+        work.t.points = self.points.room::<Row>(work.device, self.slots.rows())?;
         work.t.forces = self.forces.room::<f64>(work.device, slots * model.layout().force())?;
         work.t.moments =
             self.moments.room::<f64>(work.device, if work.t.torques != 0 { slots * TORQUE } else { 0 })?;
@@ -140,17 +138,15 @@ impl Contacts {
 
     /// The lists that the device has; images are those of [`crate::space::cell::Cell::half_of_images`].
     pub fn fetch(&self, device: &mut dyn Device, images: &[ImageOf]) -> Result<Slots, DeviceError> {
-        let slots = self.slots.end();
-        let of_images: Vec<&Segment> =
-            self.slots.segments.iter().filter(|s| s.with == With::Images).collect();
-        let with_images = of_images.last().map_or(0, |s| s.slots.end);
+        let (slots, with_images) = (self.slots.end(), self.slots.with_images());
         let (mut i, mut partner, mut numbers) =
             (vec![0_u32; slots], vec![0_u32; slots], vec![0_u8; with_images]);
         self.columns.i.read(device, &mut i)?;
         self.columns.partner.read(device, &mut partner)?;
         self.image.read(device, &mut numbers)?;
         let mut image = vec![[0; 3]; with_images];
-        for slot in of_images.into_iter().flat_map(Segment::contacts) {
+        let of_images = self.slots.segments.iter().filter(|s| s.with == With::Images);
+        for slot in of_images.flat_map(Segment::contacts) {
             image[slot] = images.get(usize::from(numbers[slot])).copied().unwrap_or_default();
         }
         let mut all = self.slots.clone();

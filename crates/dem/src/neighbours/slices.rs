@@ -27,8 +27,7 @@ pub struct StepColumns {
 impl StepColumns {
     /// Columns of these contacts, with or without spins, but for the wrenches that are kept.
     pub fn new(slots: &Slots, rotates: bool) -> StepColumns {
-        let with_points = slots.segments.iter().filter(|s| s.with != With::Particles);
-        let rows = with_points.map(|s| s.slots.len()).sum();
+        let rows = slots.rows();
         StepColumns {
             rows: vec![FAR[1]; rows],
             spins: vec![Row4::default(); if rotates { rows } else { 0 }],

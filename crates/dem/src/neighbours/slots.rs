@@ -107,6 +107,16 @@ impl Slots {
         self.segments.last().map_or(0, |s| s.kept + s.slots.len())
     }
 
+    /// Rows of contact points, of images and walls.
+    pub fn rows(&self) -> usize {
+        self.segments.iter().filter(|s| s.with != With::Particles).map(|s| s.slots.len()).sum()
+    }
+
+    /// Slots of contacts with images, which come first.
+    pub fn with_images(&self) -> usize {
+        self.segments.iter().take_while(|s| s.with == With::Images).last().map_or(0, |s| s.slots.end)
+    }
+
     /// The particle of a contact, and the other one where it is not with a wall.
     pub fn ends(&self, segment: &Segment, slot: usize) -> (u32, Option<u32>) {
         (self.i[slot], (!segment.with.is_wall()).then(|| self.partner[slot]))

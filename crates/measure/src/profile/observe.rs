@@ -56,7 +56,7 @@ pub struct Profile {
     grid: Option<Grid>,
     bounds: Option<(Vec3, Vec3)>,
     fraction: f64,
-    /// Grains so far, and those of them whose centres are outside a grid that nobody gave.
+    /// Grains so far, and those of them whose centres are outside a grid around the first frame.
     grains: [u64; 2],
 }
 

@@ -135,7 +135,7 @@ pub struct Replayed {
     /// How far before it the farthest is generated [m].
     pub farthest: f64,
     /// Along recorded paths: particles that are in the inner half of the zone when what is replayed begins.
-    pub amid: u64,
+    pub in_zone: u64,
 }
 
 /// Lengths of a zone before its calculation plane from which on a particle comes in oddly far away [–].

@@ -244,7 +244,7 @@ impl<'a, W: Write> Replayer<'a, W> {
             }
             let place = self.what.frame.map_or(row.particle.position, |f| f.point(&row.particle.position));
             let past = zone.past(&place, row.particle.radius);
-            self.done.amid += u64::from(!gone && past > -0.5 * zone.length && past < 0.0);
+            self.done.in_zone += u64::from(!gone && past > -0.5 * zone.length && past < 0.0);
         }
     }
 
