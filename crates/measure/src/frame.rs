@@ -1,13 +1,14 @@
 //! Columns of a run at one time: grains, their contacts, grains that passed an outlet.
 
-use crate::MeasureError;
 use crate::table::Columns;
+use crate::{MeasureError, Run};
 use geom::Vec3;
 use record::column::{
     FIRST, FORCE, ID, KIND, MASS, MATERIAL, NORMAL, OUTLET, OVERLAP, POSITION, RADIUS, SECOND, TIME,
     VELOCITY, WORK,
 };
 use record::topic::{CONTACTS, CROSSINGS, PARTICLES};
+use std::borrow::Cow;
 use stream::Table;
 
 /// All grains at one time.
@@ -63,19 +64,51 @@ impl Frame {
 
     /// The grains (rows) that are wanted.
     pub fn only(&self, wanted: impl Fn(usize) -> bool) -> Frame {
-        let rows: Vec<u32> = (0..self.len()).filter(|row| wanted(*row)).map(|row| row as u32).collect();
+        self.rows(&(0..self.len() as u32).filter(|row| wanted(*row as usize)).collect::<Vec<u32>>())
+    }
+
+    /// Some of its rows.
+    fn rows(&self, rows: &[u32]) -> Frame {
         Frame {
             time: self.time,
-            id: chosen(&self.id, &rows),
-            position: chosen(&self.position, &rows),
-            velocity: chosen(&self.velocity, &rows),
-            radius: chosen(&self.radius, &rows),
-            material: chosen(&self.material, &rows),
-            mass: chosen(&self.mass, &rows),
-            table: self.table.select(&rows),
-            shares: chosen(&self.shares, &rows),
+            id: chosen(&self.id, rows),
+            position: chosen(&self.position, rows),
+            velocity: chosen(&self.velocity, rows),
+            radius: chosen(&self.radius, rows),
+            material: chosen(&self.material, rows),
+            mass: chosen(&self.mass, rows),
+            table: self.table.select(rows),
+            shares: chosen(&self.shares, rows),
             clumped: None,
         }
+    }
+
+    /// With the images of grains that reach through a periodic face, so that all of each ball is in the periodic box.
+    pub fn with_images(&self, run: &Run) -> Cow<'_, Frame> {
+        if run.periodic.iter().all(Option::is_none) {
+            return Cow::Borrowed(self);
+        }
+        let (mut rows, mut shifts): (Vec<u32>, Vec<Vec3>) =
+            ((0..self.len() as u32).collect(), vec![Vec3::zeros(); self.len()]);
+        for (row, (p, r)) in (0..).zip(self.position.iter().zip(&self.radius)) {
+            let first = shifts.len();
+            for (axis, (low, high)) in
+                run.periodic.iter().enumerate().filter_map(|(k, range)| Some((k, (*range)?)))
+            {
+                // Also of the images through faces of axes before.
+                for shift in [vec![Vec3::zeros()], shifts[first..].to_vec()].concat() {
+                    for (reaches, by) in [(p[axis] - r < low, high - low), (p[axis] + r > high, low - high)] {
+                        if reaches {
+                            rows.push(row);
+                            shifts.push(shift + by * Vec3::ith(axis, 1.0));
+                        }
+                    }
+                }
+            }
+        }
+        let mut all = self.rows(&rows);
+        all.position.iter_mut().zip(&shifts).for_each(|(p, shift)| *p += shift);
+        Cow::Owned(all)
     }
 
     /// Masses [kg], when all are known.

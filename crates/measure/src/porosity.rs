@@ -2,7 +2,7 @@
 //!
 //! Each ball counts with its part in the shape (see [`crate::region`] for the accuracy). The lens that two
 //! overlapping grains share would count twice; lenses whose middle lies in the shape are subtracted. The spheres of a rigid clump count with
-//! their shares of its volume ([`crate::clumped`]).
+//! their shares of its volume ([`crate::clumped`]). In a periodic box the part of a ball beyond a face counts where its image is.
 
 use crate::coordination::touching;
 use crate::observer::OfFrame;
@@ -33,22 +33,23 @@ pub struct Filling {
 /// A shape without end or without room.
 pub fn filling(run: &Run, frame: &Frame, region: &Region) -> Result<Filling, MeasureError> {
     let volume = region.room()?;
-    let both: Vec<_> =
-        frame.position.par_iter().zip(&frame.radius).map(|(p, r)| region.part(p, *r)).collect();
+    let all = frame.with_images(run);
+    let parts: Vec<_> = all.position.par_iter().zip(&all.radius).map(|(p, r)| region.part(p, *r)).collect();
     let body = frame.body();
     let lens = |(a, b): &(usize, usize)| {
         let way = run.way(&frame.position[*a], &frame.position[*b]);
         let (r, s, d) = (frame.radius[*a], frame.radius[*b], way.norm());
-        let middle = frame.position[*a] + way * (0.5 * (d + r - s) / d);
+        let middle = run.wrapped(&(frame.position[*a] + way * (0.5 * (d + r - s) / d)));
         if d > 0.0 && region.shape.contains(&middle) { ball::lens(d, r, s) } else { 0.0 }
     };
     let apart = |(a, b): &&(usize, usize)| body[*a] != body[*b];
     let overlaps: f64 = touching(run, frame).iter().filter(apart).map(lens).sum();
-    let inside = body.iter().zip(&both).filter(|(_, p)| p.volume > 0.0);
+    let bodies = all.body();
+    let inside = bodies.iter().zip(&parts).filter(|(_, p)| p.volume > 0.0);
     Ok(Filling {
-        solid: both.iter().enumerate().map(|(row, p)| p.volume * frame.share(row)).sum::<f64>() - overlaps,
+        solid: parts.iter().enumerate().map(|(row, p)| p.volume * all.share(row)).sum::<f64>() - overlaps,
         overlaps,
-        error: both.iter().map(|p| p.error * p.error).sum::<f64>().sqrt(),
+        error: parts.iter().map(|p| p.error * p.error).sum::<f64>().sqrt(),
         volume,
         grains: inside.map(|(body, _)| body).collect::<HashSet<_>>().len(),
     })

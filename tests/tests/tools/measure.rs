@@ -369,3 +369,18 @@ fn a_mean_profile_is_around_the_grains_of_all_frames() {
     assert!(piped.stderr.contains("25.0 % of the grains are outside this grid"), "{}", piped.stderr);
     assert!(piped.stderr.contains("--within box:-0.01,-0.01,-0.01,0.51,0.01,0.01"), "{}", piped.stderr);
 }
+
+/// A ball on an edge of a periodic box is in it whole, in four parts.
+#[test]
+fn a_ball_across_periodic_faces_is_in_the_box_whole() {
+    let mut made = Made::new("[domain]\nperiodic = [\"x\", \"y\"]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\n");
+    made.frame(0.0, &[grain(0, [0.02, 0.99, 0.5], 0.1), grain(1, [0.5, 0.5, 0.5], 0.1)]);
+    let folder = saved(made);
+    let solid = sum(&folder, &["--porosity", "box:0,0,0,1,1,1"], "solid_fraction");
+    assert!((solid - 2.0 * 4.0 / 3.0 * PI * 1e-3).abs() < 1e-12, "{solid}");
+    for within in [&[][..], &["--within", "box:0,0,0,1,1,1"]] {
+        let done = measure(&folder, &[&["--profile", "--bins", "2,2,1"], within].concat());
+        let grains = column(&done, "grains");
+        assert!((grains.iter().sum::<f64>() - 2.0).abs() < 1e-9, "{grains:?}");
+    }
+}

@@ -13,7 +13,7 @@ use device::Accelerator;
 use misplaced::MCAP;
 use parts::Saved;
 use record::SIGNAL;
-use run::{Checkpoint, Earlier, Progress, RunError, Settings, run};
+use run::{Checkpoint, Earlier, Outcome, Progress, RunError, Settings, run};
 use scene::advice::DEVICE_FAILED;
 use scene::{Input, Plan, Scene, SceneError, SceneSetupError};
 use std::fs::File;
@@ -276,8 +276,19 @@ fn simulate(
     let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
     drop(watch);
     let outcome = done.map_err(|e| parts::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
-    let error = outcome.integration.as_ref();
-    let large = error.and_then(run::IntegrationError::warning);
+    warn(&outcome);
+    let report = Report::new(summary(&outcome, ledger)).with_all(&outcome);
+    match outcome.stopped {
+        Some(reason) => {
+            Err(Stopped::error(stopped(&args.output, scene, &reason, outcome.time), Some(report)))
+        }
+        None => Ok(report),
+    }
+}
+
+/// Prints what the user should know of a run.
+fn warn(outcome: &Outcome) {
+    let large = outcome.integration.as_ref().and_then(run::IntegrationError::warning);
     run::warnings(&outcome.returned)
         .iter()
         .chain(&outcome.inflow)
@@ -285,27 +296,24 @@ fn simulate(
         .chain(&outcome.fallen.map(|fallen| fallen.to_string()))
         .chain(&outcome.servos.iter().filter_map(run::ServoHeld::warning).collect::<Vec<_>>())
         .for_each(|note| cli::warn(note));
+}
+
+/// A run in one line; with the `ledger` also its integration error.
+fn summary(outcome: &Outcome, ledger: bool) -> String {
     let held = outcome.servos.iter().filter(|servo| servo.warning().is_none());
     let held: String = held.map(|servo| format!("; {servo}")).collect();
     let unknown = if ledger { "" } else { UNMEASURED };
-    let error = error.map_or(unknown.to_owned(), |error| format!(", {error}"));
+    let error = outcome.integration.as_ref().map_or(unknown.to_owned(), |error| format!(", {error}"));
     let settled = outcome.settled.as_ref().map_or(String::new(), |why| format!("; ended at rest: {why}"));
     let by = outcome.device.as_ref().map_or(String::new(), |name| format!(" on {name}"));
-    let summary = format!(
+    format!(
         "{} of {:.3e} s to {} s{by}, {}, {}{error}{settled}{held}",
         geom::counted(outcome.steps, "step"),
         outcome.dt,
         geom::Shown(outcome.time),
         geom::counted(outcome.particles, "particle"),
         geom::counted(outcome.frames, "frame")
-    );
-    let report = Report::new(summary).with_all(&outcome);
-    match outcome.stopped {
-        Some(reason) => {
-            Err(Stopped::error(stopped(&args.output, scene, &reason, outcome.time), Some(report)))
-        }
-        None => Ok(report),
-    }
+    )
 }
 
 /// Of a run without the ledger: only its books show what the time step made.

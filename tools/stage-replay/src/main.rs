@@ -47,7 +47,7 @@ fn stage_replay(args: Args) -> anyhow::Result<Report> {
     }
     if done.in_zone > 0 {
         cli::warn(&format!(
-            "{} inside the zone, among others, when the replay begins: choose a --from at which no grain is in the zone",
+            "{} inside the zone when the replay begins, among others: choose a --from at which no grain is in the zone",
             geom::counted_as(done.in_zone, "grain", ["is", "are"])
         ));
     }

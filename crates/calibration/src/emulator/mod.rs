@@ -20,34 +20,25 @@
 
 mod crossed;
 mod gp;
+mod learn;
 mod likelihood;
 mod refined;
 mod rprop;
 mod trend;
 
-use crossed::crossed;
 pub(crate) use gp::{Gp, Logs, Prediction};
+use learn::{Features, Outputs, rescale};
 use likelihood::Scatter;
 use refined::Refined;
-use trend::Trend;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
-use rayon::prelude::*;
 
-/// Most components of a curve.
-const MOST: usize = 10;
-/// Deviation of a component over all trials, in deviations of the data, below which it tells nothing.
-const LEAST: f64 = 0.05;
 /// Deviation of a process over the trials, in deviations of data and specimens, below which it only scatters.
 const FLAT: f64 = 0.1;
-/// Trials a parameter, below which lengths are fitted again where points are left out.
-const FEW: usize = 10;
 /// Trials near the data, at least.
 const NEAR: usize = 60;
 /// Share by which the correlations of specimens are lowered: those of few trials are never exact.
 const SHRINK: f64 = 0.05;
-/// Least factor on the variances.
-const LEAST_FACTOR: f64 = 1e-3;
 /// Most trials that an emulator learns from.
 pub(crate) const MOST_TRIALS: usize = 400;
 
@@ -109,67 +100,13 @@ pub(crate) struct Emulator {
 impl Emulator {
     /// Learns; `None` if the numbers do not allow it.
     pub fn learn(lessons: &Lessons) -> Option<Emulator> {
-        let factor = Cholesky::new(lessons.covariance.clone())?.unpack();
-        let white = factor.solve_lower_triangular(&lessons.outputs.transpose())?;
-        let mean = white.column_mean();
-        let mut off = white;
-        off.column_iter_mut().for_each(|mut c| c -= &mean);
-        let n = off.ncols() as f64;
-        let basis = principal(&off, n)?;
-        let target_white = factor.solve_lower_triangular(&lessons.data)? - &mean;
-        let target = basis.tr_mul(&target_white);
-        let beside = (target_white.norm_squared() - target.norm_squared()).max(0.0);
-        let scores = basis.tr_mul(&off);
-        let same = lessons.before.len() == scores.nrows();
+        let Outputs { factor, mean, basis, scores, target, beside } = Outputs::of(lessons)?;
         let refined = lessons.refined.map(|other| Refined::new(other, &basis, &mean));
-        let said: Option<Vec<DVector<f64>>> = refined.as_ref().map(|r| {
-            (0..lessons.inputs.nrows())
-                .map(|i| r.at(&lessons.inputs.row(i).iter().copied().collect::<Vec<_>>()))
-                .collect()
-        });
-        // Where the other emulator says one thing of all trials, there is no line to follow.
-        let follows = |k: usize| {
-            said.as_ref().is_some_and(|said| {
-                DVector::from_fn(said.len(), |i, _| said[i][k]).variance() > LEAST * LEAST
-            })
-        };
-        let inputs: Vec<DMatrix<f64>> = (0..scores.nrows())
-            .map(|k| match said.as_ref().filter(|_| follows(k)) {
-                None => lessons.inputs.clone(),
-                Some(said) => {
-                    let m = DVector::from_fn(said.len(), |i, _| said[i][k]);
-                    let mut wide = lessons.inputs.clone().insert_column(lessons.inputs.ncols(), 0.0);
-                    wide.set_column(lessons.inputs.ncols(), &m);
-                    wide
-                }
-            })
-            .collect();
-        let fit = |k: usize| {
-            let start = if same { lessons.before.get(k) } else { None };
-            let y = scores.row(k).transpose();
-            let trend = match (&refined, follows(k)) {
-                (None, _) => Trend::of(inputs[k].nrows(), inputs[k].ncols()),
-                (Some(_), true) => Trend::Other,
-                (Some(_), false) => Trend::Constant,
-            };
-            Gp::fit(&inputs[k], &y, (lessons.scatter(), start), trend)
-        };
-        let mut components: Vec<Gp> = (0..scores.nrows()).into_par_iter().map(fit).collect::<Option<_>>()?;
-        let few = lessons.inputs.nrows() < FEW * lessons.inputs.ncols();
-        let left_out = |(k, gp): (usize, &Gp)| match few {
-            true => crossed(gp, &inputs[k], &scores.row(k).transpose(), lessons.scatter())
-                .or_else(|| gp.left_out()),
-            false => gp.left_out(),
-        };
-        let left_out: Vec<Vec<f64>> =
-            components.par_iter().enumerate().map(left_out).collect::<Option<_>>()?;
+        let features = Features::of(lessons, refined.as_ref(), scores.nrows());
+        let mut components = features.processes(lessons, &scores)?;
+        let left_out = features.left_out(lessons, &scores, &components)?;
         let near = nearest(&scores, &target, lessons.inputs.ncols());
-        let mut off = DMatrix::zeros(near.len(), components.len());
-        for (k, (gp, all)) in components.iter_mut().zip(&left_out).enumerate() {
-            let mean = near.iter().map(|&i| all[i] * all[i]).sum::<f64>() / near.len() as f64;
-            gp.rescale(mean.max(LEAST_FACTOR));
-            off.column_mut(k).iter_mut().zip(&near).for_each(|(o, &i)| *o = all[i] / mean.max(1e-300).sqrt());
-        }
+        let off = rescale(&mut components, &left_out, &near);
         let noise: Vec<f64> =
             components.iter().map(|gp| gp.noise * lessons.seeds / lessons.specimens).collect();
         let alike = off.tr_mul(&off) / near.len() as f64;
@@ -180,10 +117,10 @@ impl Emulator {
         });
         let changes = |k: &usize| components[*k].deviation() > FLAT * (1.0 + noise[*k]).sqrt();
         let active: Vec<usize> = (0..components.len()).filter(changes).collect();
-        let points = lessons.data.len();
+        let (target, points) = (target.iter().copied().collect(), lessons.data.len());
         Some(Emulator {
             components,
-            target: target.iter().copied().collect(),
+            target,
             noise,
             active,
             specimens,
@@ -279,29 +216,6 @@ fn nearest(scores: &DMatrix<f64>, target: &DVector<f64>, d: usize) -> Vec<usize>
     order.sort_by(|a, b| far(a).total_cmp(&far(b)));
     order.truncate(NEAR.max(5 * d).min((order.len() / 2).max(20)));
     order
-}
-
-/// Principal directions of the columns, those that tell something.
-fn principal(off: &DMatrix<f64>, n: f64) -> Option<DMatrix<f64>> {
-    let square = (off * off.transpose()) / n;
-    let eigen = square.symmetric_eigen();
-    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-    let largest = eigen.eigenvalues[*order.first()?];
-    let tells = |k: &&usize| eigen.eigenvalues[**k] > (LEAST * LEAST).max(1e-12 * largest);
-    let mut kept: Vec<usize> = order.iter().filter(tells).take(MOST).copied().collect();
-    if kept.is_empty() {
-        kept.push(order[0]);
-    }
-    let mut basis = eigen.eigenvectors.select_columns(&kept);
-    // The sign of a direction is free: the largest entry is positive, so that fits follow on from each other.
-    for mut column in basis.column_iter_mut() {
-        let largest = column.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(1.0);
-        if largest < 0.0 {
-            column.neg_mut();
-        }
-    }
-    Some(basis)
 }
 
 /// Square of the white distance of a curve from the data.

@@ -40,7 +40,9 @@ impl BoxOfFrames {
         if frame.is_empty() || !self.which.holds(run, frame.time) {
             return;
         }
-        let bounds = self.turn.map_or_else(|| frame.bounds(), |turn| seen_along(frame, turn).bounds());
+        let bounds = self
+            .turn
+            .map_or_else(|| in_box(run, &frame.with_images(run)), |turn| seen_along(frame, turn).bounds());
         self.corners = Some(self.corners.map_or(bounds, |b| (b.0.inf(&bounds.0), b.1.sup(&bounds.1))));
     }
 
@@ -81,6 +83,15 @@ impl Profile {
     }
 }
 
+/// The box around all grains and their images, as far as the periodic box reaches.
+fn in_box(run: &Run, images: &Frame) -> (Vec3, Vec3) {
+    let (mut low, mut high) = images.bounds();
+    for (axis, (from, to)) in run.periodic.iter().enumerate().filter_map(|(k, range)| Some((k, (*range)?))) {
+        (low[axis], high[axis]) = (low[axis].max(from), high[axis].min(to));
+    }
+    (low, high)
+}
+
 /// A frame with positions and velocities along turned axes.
 fn seen_along(frame: &Frame, turn: Turn) -> Frame {
     let along = |all: &[Vec3]| all.iter().map(|v| turn.components(v)).collect();
@@ -108,14 +119,18 @@ impl OfFrame for Profile {
         heads
     }
 
-    fn measure(&mut self, _: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
-        let fields = self.fields(frame)?;
-        let turned = self.options.turn.map(|turn| seen_along(frame, turn));
-        let frame = turned.as_ref().unwrap_or(frame);
+    fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
+        let images = frame.with_images(run);
+        let fields = self.fields(&images)?;
+        let turn = self.options.turn;
+        let (frame, all) = match turn {
+            Some(turn) => (&seen_along(frame, turn), &seen_along(&images, turn)),
+            None => (frame, &*images),
+        };
         if frame.is_empty() && self.options.corners.is_none() && self.grid.is_none() {
             return Ok(Vec::new());
         }
-        let bounds = frame.bounds();
+        let bounds = if turn.is_some() { frame.bounds() } else { in_box(run, all) };
         self.bounds = Some(self.bounds.map_or(bounds, |b| (b.0.inf(&bounds.0), b.1.sup(&bounds.1))));
         let (low, high) = self.options.corners.or(self.grid.as_ref().map(Grid::corners)).unwrap_or(bounds);
         let kept = if self.options.mean { self.grid.take() } else { None };
@@ -123,7 +138,7 @@ impl OfFrame for Profile {
             Some(grid) => grid,
             None => Grid::new(low, high, self.options.bins, fields.len())?,
         };
-        grid.add(frame, &fields)?;
+        grid.add(all, &fields)?;
         if self.options.corners.is_none() {
             let outside = |p: &&Vec3| (0..3).any(|k| p[k] < low[k] || p[k] > high[k]);
             self.grains[0] += frame.len() as u64;
