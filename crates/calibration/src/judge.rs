@@ -5,6 +5,8 @@ use crate::recipe::{Recipe, Step};
 use crate::session::{StepEnd, Tried};
 use serde::Serialize;
 
+/// Share of its bounds at either end in which a best value is at the bound.
+const AT_BOUND: f64 = 0.01;
 /// Posterior width over prior width above which the data tell nothing of a parameter.
 const DETERMINED: f64 = 0.85;
 /// Rank correlation from which the data do not separate two parameters, if an interval of them is this wide, over that of the prior.
@@ -28,6 +30,8 @@ pub struct Finding {
     pub high: f64,
     /// Value at the best fit.
     pub best: f64,
+    /// Whether that is an end of its bounds.
+    pub at_bound: bool,
     /// Interval before the tests.
     pub prior: [f64; 2],
     /// Width of the interval over that of the prior, on the parameter's scale.
@@ -152,6 +156,7 @@ fn finding(recipe: &Recipe, end: &StepEnd, of: (usize, usize), sensitivities: &[
         low: p.value(ends[0]),
         high: p.value(ends[1]),
         best: p.value(end.samples.best.z[at]),
+        at_bound: !(AT_BOUND..=1.0 - AT_BOUND).contains(&end.samples.best.z[at]),
         prior: prior.map(|z| p.value(z)),
         width,
         determined: width < DETERMINED,

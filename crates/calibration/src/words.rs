@@ -72,9 +72,16 @@ pub fn sentences(judged: &Judged) -> Vec<String> {
 pub fn warnings(judged: &Judged) -> Vec<String> {
     let mut lines = Vec::new();
     for s in judged.steps.iter().filter(|s| s.widened > 1.0) {
+        let at_bound = judged.findings.iter().filter(|f| f.step == s.step && f.at_bound);
+        let at_bound: Vec<String> =
+            at_bound.map(|f| format!("{} = {}", f.parameter, amount(f.best, &f.unit))).collect();
+        let cure = if at_bound.is_empty() {
+            "a discrepancy in [[test]] says what the model cannot reproduce".to_owned()
+        } else {
+            format!("the best fit is at the end of the bounds ({}): widen them", at_bound.join(", "))
+        };
         lines.push(format!(
-            "step '{}': no parameters reproduce the data within their deviations (square of misfit {}, expected {}): the intervals take the deviations {} times as wide; \
-             a discrepancy in [[test]] says what the model cannot reproduce",
+            "step '{}': no parameters reproduce the data within their deviations (square of misfit {}, expected {}): the intervals take the deviations {} times as wide; {cure}",
             s.step,
             Shown(s.misfit),
             s.free,

@@ -45,7 +45,11 @@ pub fn publish(
     }
     let found = judged.findings.iter().filter(|f| f.determined).count();
     let trials: usize = judged.trials.iter().sum();
-    let summary = format!("{found} of {} parameters found, {trials} trials", judged.findings.len());
+    let summary = format!(
+        "found {found} of {}, {}",
+        geom::counted(judged.findings.len(), "parameter"),
+        geom::counted(trials, "trial")
+    );
     Ok(Report::new(summary).with("seed", recipe.settings.seed).with_all(judged).with("next", next))
 }
 
