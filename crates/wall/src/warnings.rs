@@ -3,7 +3,7 @@
 use crate::build::{ROUNDED, WallReport, representative};
 use crate::deep::{DEEP, DeepDents};
 use crate::sheets::{self, Sheets};
-use crate::{Representative, WallError, WallSettings, leak};
+use crate::{Radius, Representative, WallError, WallSettings, leak};
 use geom::star::Stars;
 use geom::{Shown, Vec3};
 
@@ -35,6 +35,9 @@ pub(crate) fn judge(
     if let Some(deep) = &report.deep_dents {
         report.warnings.push(too_deep(deep, spacing));
     }
+    if let Radius::Given(radius) = settings.radius {
+        check_given(report, radius, built);
+    }
     if let Some(largest) = settings.largest_particle {
         check_largest(report, largest);
     }
@@ -52,6 +55,19 @@ impl Built<'_> {
     /// The widest gap, and how many pass a particle of this diameter [m].
     fn widest_gap(&self, particle: f64) -> (Option<leak::Gap>, usize) {
         leak::widest(self.centres, self.radii, &self.stars.triangles, &self.stars.outline, particle)
+    }
+}
+
+/// Warns of a given radius [m] that is larger than the whole cloud.
+fn check_given(report: &mut WallReport, radius: f64, built: &Built) {
+    let (low, high) = geom::grid::bounds(built.points);
+    let width = (high - low).max();
+    if radius > width {
+        report.warnings.push(format!(
+            "the given radius of {} m is larger than the cloud, which is {} m wide: is it in millimetres?",
+            Shown(radius),
+            Shown(width)
+        ));
     }
 }
 

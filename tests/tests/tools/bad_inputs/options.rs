@@ -132,6 +132,7 @@ fn lengths_of_another_unit_are_told() {
     let folder = clouds();
     for (line, part) in [
         ("wallgen mm.xyz --roughness 0.05 --smallest-particle 0.01", "far larger than the smallest particle"),
+        ("wallgen good.ply --radius 12", "the given radius of 12 m is larger than the cloud"),
         ("bluenoise-sample mm.xyz --spacing 0.01", "all 400 points were kept"),
         ("bluenoise-sample good.ply --spacing 10", "1 of 400 points were kept"),
     ] {
