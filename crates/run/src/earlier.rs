@@ -45,27 +45,46 @@ impl Earlier {
         }
     }
 
-    /// Writes all messages until the time of a checkpoint [s] but what no longer holds: why that run was stopped, its checkpoints, and the histories
-    /// of its last frame. Returns whether a frame of that time is among them.
+    /// Writes all messages until the time of a checkpoint [s] but what no longer holds: why that run was stopped, its checkpoints, the histories of its
+    /// last frame, and the frame of that time, which may be incomplete and is written again if it is due. Returns whether that frame had been begun.
     pub(crate) fn copy<W: Write>(mut self, writer: &mut Writer<W>, until: f64) -> Result<bool> {
-        let (until, mut has_frame) = (nanoseconds(until), false);
+        let (until, mut begun, mut has_walls) = (nanoseconds(until), false, false);
         let mut event = self.first.take();
         while let Some(message) = event {
             match message {
                 Event::Points { topic, time_ns, table } if time_ns <= until && topic != topic::HISTORY => {
-                    has_frame |= topic == topic::PARTICLES && time_ns == until;
-                    writer.points(&topic, time_ns, FRAME, table)?;
+                    // Walls come once at the beginning, and with a frame where they move.
+                    let of_frame = FRAMES.contains(&&*topic) || topic == topic::WALLS && has_walls;
+                    has_walls |= topic == topic::WALLS;
+                    begun |= topic == topic::PARTICLES && time_ns == until;
+                    if time_ns < until || !of_frame {
+                        writer.points(&topic, time_ns, FRAME, table)?;
+                    }
                 }
                 Event::Bytes { topic, time_ns, data } if time_ns <= until && holds(&topic, &data) => {
-                    writer.bytes(&topic, "json", time_ns, &data)?;
+                    if time_ns < until || !FRAMES.contains(&&*topic) {
+                        writer.bytes(&topic, "json", time_ns, &data)?;
+                    }
                 }
                 _ => {}
             }
             event = self.next()?;
         }
-        Ok(has_frame)
+        Ok(begun)
     }
 }
+
+/// What a frame is made of.
+const FRAMES: [&str; 8] = [
+    topic::PARTICLES,
+    topic::BODIES,
+    topic::BONDS,
+    topic::CONTACTS,
+    topic::DOMAIN,
+    topic::WALL_FORCES,
+    topic::SETTLING,
+    topic::ENERGY,
+];
 
 /// Whether a message in JSON is still true when the run goes on.
 fn holds(topic: &str, data: &[u8]) -> bool {

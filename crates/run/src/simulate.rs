@@ -168,6 +168,8 @@ pub(crate) struct Run<W: Write> {
     pub first: u64,
     /// Whether what is due in that step was written before the run was resumed.
     pub begins_written: bool,
+    /// Whether what broke at that instant is in the file.
+    pub cracks_told: bool,
     pub crossings: Vec<Crossing>,
     /// Step of the last sample of paths, or of the checkpoint that was resumed.
     pub sampled: Option<u64>,

@@ -57,6 +57,7 @@ impl<W: Write> Run<W> {
             written,
             first,
             begins_written: first > 0,
+            cracks_told: first > 0,
             crossings: Vec::new(),
             paths: Vec::new(),
             frame_energy: None,
@@ -69,8 +70,8 @@ impl<W: Write> Run<W> {
         match settings.earlier {
             None => run.write_walls(&surfaces, &warnings)?,
             Some(earlier) => {
-                let has_frame = earlier.copy(&mut run.writer, run.sim.time())?;
-                run.begins_written = has_frame || !run.schedule.is_frame(first);
+                run.cracks_told = earlier.copy(&mut run.writer, run.sim.time())?;
+                run.begins_written = !run.schedule.is_frame(first);
                 run.writer.flush_chunk()?;
             }
         }

@@ -155,7 +155,7 @@ impl<W: Write> Run<W> {
     /// Writes what broke since the last time, and notes bonds that were due and found no pair. What broke at the instant that a run is resumed from was written
     /// with the frame of that instant.
     fn write_cracks(&mut self) -> Result<()> {
-        let told = self.begins_written && self.schedule.is_frame(self.first);
+        let told = self.cracks_told && self.schedule.is_frame(self.first);
         let told = if told { self.first as f64 * self.sim.dt() } else { f64::NEG_INFINITY };
         let mut cracks = self.sim.take_cracks();
         cracks.retain(|crack| crack.time > told);
