@@ -2,7 +2,8 @@
 //!
 //! Each ball counts with its part in the shape (see [`crate::region`] for the accuracy). The lens that two
 //! overlapping grains share would count twice; lenses whose middle lies in the shape are subtracted. The spheres of a rigid clump count with
-//! their shares of its volume ([`crate::clumped`]). In a periodic box the part of a ball beyond a face counts where its image is.
+//! their shares of its volume ([`crate::clumped`]). Of a box, ball or cylinder that lies in the periodic box,
+//! the part of a grain beyond a face counts where its image is.
 
 use crate::coordination::touching;
 use crate::observer::OfFrame;
@@ -10,6 +11,7 @@ use crate::region::Region;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{Frame, MeasureError, Run, ball};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 /// How full a shape is.
@@ -33,13 +35,15 @@ pub struct Filling {
 /// A shape without end or without room.
 pub fn filling(run: &Run, frame: &Frame, region: &Region) -> Result<Filling, MeasureError> {
     let volume = region.room()?;
-    let all = frame.with_images(run);
+    let in_box = region.lies_in_box(run);
+    let all = if in_box { frame.with_images(run) } else { Cow::Borrowed(frame) };
     let parts: Vec<_> = all.position.par_iter().zip(&all.radius).map(|(p, r)| region.part(p, *r)).collect();
     let body = frame.body();
     let lens = |(a, b): &(usize, usize)| {
         let way = run.way(&frame.position[*a], &frame.position[*b]);
         let (r, s, d) = (frame.radius[*a], frame.radius[*b], way.norm());
-        let middle = run.wrapped(&(frame.position[*a] + way * (0.5 * (d + r - s) / d)));
+        let middle = frame.position[*a] + way * (0.5 * (d + r - s) / d);
+        let middle = if in_box { run.wrapped(&middle) } else { middle };
         if d > 0.0 && region.shape.contains(&middle) { ball::lens(d, r, s) } else { 0.0 }
     };
     let apart = |(a, b): &&(usize, usize)| body[*a] != body[*b];

@@ -66,11 +66,16 @@ impl Grid {
         Ok(Grid { low, step, bins, cells: vec![cell; count as usize], frames: 0, time: 0.0 })
     }
 
-    /// Adds the grains of a frame; `fields` are columns of it.
+    /// Adds the grains of a frame, as far as they are between the corners of `room` [m]; `fields` are columns of it.
     ///
     /// # Errors
     /// A material without density.
-    pub fn add(&mut self, frame: &Frame, fields: &[Vec<f64>]) -> Result<(), MeasureError> {
+    pub fn add(
+        &mut self,
+        frame: &Frame,
+        room: &(Vec3, Vec3),
+        fields: &[Vec<f64>],
+    ) -> Result<(), MeasureError> {
         let masses = frame.masses()?;
         for (row, mass) in masses.iter().enumerate() {
             let (p, v, r) = (frame.position[row], frame.velocity[row], frame.radius[row]);
@@ -85,7 +90,11 @@ impl Grid {
             let [xs, ys, zs] = [0, 1, 2].map(range);
             for (z, y, x) in cells(zs, ys, xs) {
                 let low = self.low + self.step.component_mul(&Vec3::new(x as f64, y as f64, z as f64));
-                let part = ball::in_box(&p, r, &low, &(low + self.step));
+                let (low, high) = (low.sup(&room.0), (low + self.step).inf(&room.1));
+                if (0..3).any(|k| low[k] >= high[k]) {
+                    continue;
+                }
+                let part = ball::in_box(&p, r, &low, &high);
                 if part > 0.0 {
                     let cell = &mut self.cells[(z * self.bins[1] + y) * self.bins[0] + x];
                     cell.add(part * frame.share(row), part / ball::volume(r), *mass, r, &v);
@@ -178,7 +187,7 @@ mod tests {
             mass: vec![5.0],
             ..Frame::default()
         };
-        grid.add(&frame, &[]).unwrap();
+        grid.add(&frame, &crate::Run::default().room(), &[]).unwrap();
         for row in grid.rows() {
             assert!((row[4] - ball::volume(0.3) / 4.0).abs() < 1e-15, "{row:?}");
             let expected = [0.25, 1.0, 2.0, -2.0, 3.0, 0.0, 0.6, 0.6];

@@ -4,7 +4,7 @@
 //! that fill the ball evenly, where 64 points on its surface are not all on one side; the reported error is
 //! that of random points, V √(p (1 − p)/1000); evenly spread points stay below it.
 
-use crate::{MeasureError, ball, cylinder};
+use crate::{MeasureError, Run, ball, cylinder};
 use geom::{Shape, Vec3, shape::Solid};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -43,6 +43,18 @@ impl Region {
             Solid::Prism(_) | Solid::Mesh(_) => volume,
         };
         Region { shape, volume: own }
+    }
+
+    /// Whether it lies in the periodic box, where the images of grains then count; of cones, prisms and meshes that is not known.
+    pub fn lies_in_box(&self, run: &Run) -> bool {
+        let (low, high) = match &self.shape.solid {
+            _ if self.shape.outside => return false,
+            Solid::Box(low, high) => (*low, *high),
+            Solid::Sphere(middle, r) => (middle.add_scalar(-r), middle.add_scalar(*r)),
+            Solid::Cylinder(a, b, r) => (a.inf(b).add_scalar(-r), a.sup(b).add_scalar(*r)),
+            _ => return false,
+        };
+        run.in_box(&low) && run.in_box(&high)
     }
 
     /// The volume [m³] of a region that has an end and room inside.

@@ -216,6 +216,13 @@ impl Run {
         })
     }
 
+    /// Lowest and highest corner of the periodic box [m], without end along other axes.
+    pub fn room(&self) -> (Vec3, Vec3) {
+        let end = |k: usize, of: fn((f64, f64)) -> f64, open: f64| self.periodic[k].map_or(open, of);
+        let corner = |of: fn((f64, f64)) -> f64, open: f64| Vec3::from([0, 1, 2].map(|k| end(k, of, open)));
+        (corner(|range| range.0, f64::NEG_INFINITY), corner(|range| range.1, f64::INFINITY))
+    }
+
     /// The shortest way from `a` to `b` [m], through periodic faces where that is shorter.
     pub fn way(&self, a: &Vec3, b: &Vec3) -> Vec3 {
         let mut way = b - a;

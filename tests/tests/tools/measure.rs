@@ -383,4 +383,12 @@ fn a_ball_across_periodic_faces_is_in_the_box_whole() {
         let grains = column(&done, "grains");
         assert!((grains.iter().sum::<f64>() - 2.0).abs() < 1e-9, "{grains:?}");
     }
+    // Once each, also where the grid is turned or larger than the box.
+    for words in [&["--within", "box:-0.2,-0.2,0,1.2,1.2,1"][..], &["--turn-deg", "z,45"]] {
+        let grains =
+            column(&measure(&folder, &[&["--profile", "--bins", "1,1,1"], words].concat()), "grains");
+        assert!((grains[0] - 2.0).abs() < 1e-9, "{words:?}: {grains:?}");
+    }
+    let outside = sum(&folder, &["--porosity", "box:-0.2,-0.2,0,1.2,1.2,1"], "solid_fraction") * 1.4 * 1.4;
+    assert!((outside - 2.0 * 4.0 / 3.0 * PI * 1e-3).abs() < 1e-12, "{outside}");
 }

@@ -5,6 +5,7 @@ use crate::observer::{OfFrame, Which};
 use crate::sheet::{Chart, Head, Panel, Row, Summary};
 use crate::{Frame, MeasureError, Run, RunMessage, table};
 use geom::Vec3;
+use std::borrow::Cow;
 
 /// What the options ask for.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,17 +121,17 @@ impl OfFrame for Profile {
     }
 
     fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
-        let images = frame.with_images(run);
-        let fields = self.fields(&images)?;
-        let turn = self.options.turn;
-        let (frame, all) = match turn {
-            Some(turn) => (&seen_along(frame, turn), &seen_along(&images, turn)),
-            None => (frame, &*images),
+        // Turned, the axes of the grid are not those of the box: what of a ball is beyond a face stays there.
+        let (seen, room) = match self.options.turn {
+            Some(turn) => (Cow::Owned(seen_along(frame, turn)), Run::default().room()),
+            None => (frame.with_images(run), run.room()),
         };
+        let (fields, turned) = (self.fields(&seen)?, self.options.turn.map(|turn| seen_along(frame, turn)));
+        let frame = turned.as_ref().unwrap_or(frame);
         if frame.is_empty() && self.options.corners.is_none() && self.grid.is_none() {
             return Ok(Vec::new());
         }
-        let bounds = if turn.is_some() { frame.bounds() } else { in_box(run, all) };
+        let bounds = if turned.is_some() { frame.bounds() } else { in_box(run, &seen) };
         self.bounds = Some(self.bounds.map_or(bounds, |b| (b.0.inf(&bounds.0), b.1.sup(&bounds.1))));
         let (low, high) = self.options.corners.or(self.grid.as_ref().map(Grid::corners)).unwrap_or(bounds);
         let kept = if self.options.mean { self.grid.take() } else { None };
@@ -138,7 +139,7 @@ impl OfFrame for Profile {
             Some(grid) => grid,
             None => Grid::new(low, high, self.options.bins, fields.len())?,
         };
-        grid.add(all, &fields)?;
+        grid.add(&seen, &room, &fields)?;
         if self.options.corners.is_none() {
             let outside = |p: &&Vec3| (0..3).any(|k| p[k] < low[k] || p[k] > high[k]);
             self.grains[0] += frame.len() as u64;
