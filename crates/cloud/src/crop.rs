@@ -195,8 +195,11 @@ impl ShapeTest<'_> {
             let idle = tried.iter().take(given).enumerate().filter(|(_, tried)| !tried.counts.load(Relaxed));
             idle.map(|(k, _)| {
                 let which = if given > 1 { format!(" (number {})", k + 1) } else { String::new() };
-                let before = if k > 0 { " that those before it do not hold" } else { "" };
-                format!("{option}{which} holds no point{before}: compare its coordinates and their unit with those of the cloud")
+                if k == 0 && (option == "--keep" || self.keep.is_empty()) {
+                    format!("{option}{which} holds no point: compare its coordinates and their unit with those of the cloud")
+                } else {
+                    format!("{option}{which} changes nothing: it holds no point that other shapes leave to it")
+                }
             })
             .collect::<Vec<String>>()
         };

@@ -19,8 +19,8 @@ const BLOCK: usize = 6;
 const ON: f64 = 1e-6;
 /// How far from a triangle, in steps, winding numbers say where the inside is.
 const BESIDE: f64 = 0.01;
-/// Most pieces along an edge of a triangle.
-const CUTS: f64 = 400.0;
+/// Most pieces of a triangle.
+const CUTS: usize = 1 << 18;
 /// Where the winding numbers of a block are this far from one half, all of it is on one side.
 const CLEAR: f64 = 0.2;
 
@@ -99,10 +99,14 @@ pub fn sample(mesh: &TriMesh, cells: usize) -> Samples {
     let mut samples = empty.clone();
     distances(mesh, &mut samples);
     if signed(&mut samples, &winding) {
-        let outline = without_inner(mesh, &winding, samples.step);
-        samples = empty;
+        let (outline, step) = (without_inner(mesh, &winding, samples.step), samples.step);
+        let on = std::mem::replace(&mut samples, empty).values;
         distances(&outline, &mut samples);
         signed(&mut samples, &winding);
+        // Nodes on triangles that are gone: their own winding numbers say nothing.
+        for (now, _) in samples.values.iter_mut().zip(on).filter(|(_, on)| *on == (ON * step) as f32) {
+            *now = now.abs().max((ON * step) as f32);
+        }
     }
     samples
 }
@@ -118,9 +122,10 @@ fn signed(samples: &mut Samples, winding: &Winding) -> bool {
         for at in block.nodes() {
             let w = side.unwrap_or_else(|| winding.at(&block.place(at)) - 0.5);
             let distance = f64::from(*block.value(at));
-            let mut twice = w > 1.0;
-            *block.value(at) = if distance <= ON * step {
-                twice |= is_inner(winding, &block.place(at), &Vec3::repeat(BESIDE * step));
+            let on = distance <= ON * step;
+            let twice =
+                if on { is_inner(winding, &block.place(at), &Vec3::repeat(BESIDE * step)) } else { w > 1.0 };
+            *block.value(at) = if on {
                 if twice { ON * step } else { 0.0 }
             } else if distance.is_finite() {
                 distance.copysign(w)
@@ -143,16 +148,21 @@ fn is_inner(winding: &Winding, place: &Vec3, far: &Vec3) -> bool {
 
 /// The triangles, cut into pieces of about a step, without those that have the inside on both sides: they are no surface.
 fn without_inner(mesh: &TriMesh, winding: &Winding, step: f64) -> TriMesh {
-    let pieces = |[a, b, c]: [Vec3; 3]| {
-        let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
-        let n = (longest / step).ceil().clamp(1.0, CUTS) as usize;
-        let at = move |i: usize, j: usize| a + ((b - a) * i as f64 + (c - a) * j as f64) / n as f64;
-        (0..n).flat_map(move |i| {
-            (0..n - i).flat_map(move |j| {
-                let turned = (i + j + 1 < n).then(|| [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
-                [Some([at(i, j), at(i + 1, j), at(i, j + 1)]), turned].into_iter().flatten()
-            })
-        })
+    // Halved across the longest edge: a sliver becomes a row of pieces, not a square.
+    let pieces = |triangle: [Vec3; 3]| {
+        let (mut open, mut done) = (vec![triangle], Vec::new());
+        while let Some(t) = open.pop() {
+            let length = |k: usize| (t[(k + 1) % 3] - t[k]).norm();
+            let longest = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b))).unwrap_or(0);
+            if length(longest) <= step || done.len() + open.len() > CUTS {
+                done.push(t);
+                continue;
+            }
+            let [a, b, c] = [t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]];
+            let middle = (a + b) / 2.0;
+            open.extend([[middle, b, c], [a, middle, c]]);
+        }
+        done
     };
     let is_outline = |[a, b, c]: &[Vec3; 3]| {
         let middle = (a + b + c) / 3.0;

@@ -68,7 +68,7 @@ pub fn summary(changes: &Changes) -> String {
         _ => said.push("the surface was closed and is kept".to_owned()),
     }
     let change = changes.volume / changes.volume_before - 1.0;
-    let thinned = if change == 0.0 {
+    let thinned = if (10_000.0 * change).round() == 0.0 {
         String::new()
     } else {
         format!(" (thinning changed it by {} %)", percent(change))
