@@ -61,8 +61,10 @@ impl Earlier {
                         writer.points(&topic, time_ns, FRAME, table)?;
                     }
                 }
-                Event::Bytes { topic, time_ns, data } if time_ns <= until && holds(&topic, &data) => {
-                    if time_ns < until || !FRAMES.contains(&&*topic) {
+                Event::Bytes { topic, time_ns, data } => {
+                    let of_frame = FRAMES.contains(&&*topic);
+                    let kept = time_ns < until || time_ns == until && !of_frame;
+                    if kept && holds(&topic, &data) {
                         writer.bytes(&topic, "json", time_ns, &data)?;
                     }
                 }
