@@ -88,13 +88,13 @@ impl Frame {
         if run.periodic.iter().all(Option::is_none) {
             return Cow::Borrowed(self);
         }
+        let (low, high) = run.room();
         let (mut rows, mut shifts): (Vec<u32>, Vec<Vec3>) =
             ((0..self.len() as u32).collect(), vec![Vec3::zeros(); self.len()]);
         for (row, (p, r)) in (0..).zip(self.position.iter().zip(&self.radius)) {
             let first = shifts.len();
-            for (axis, (low, high)) in
-                run.periodic.iter().enumerate().filter_map(|(k, range)| Some((k, (*range)?)))
-            {
+            for axis in 0..3 {
+                let (low, high) = (low[axis], high[axis]);
                 // Also of the images through faces of axes before.
                 for shift in [vec![Vec3::zeros()], shifts[first..].to_vec()].concat() {
                     for (reaches, by) in [(p[axis] - r < low, high - low), (p[axis] + r > high, low - high)] {

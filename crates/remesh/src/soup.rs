@@ -123,8 +123,7 @@ fn signed(samples: &mut Samples, winding: &Winding) -> bool {
             let w = side.unwrap_or_else(|| winding.at(&block.place(at)) - 0.5);
             let distance = f64::from(*block.value(at));
             let on = distance <= ON * step;
-            let twice =
-                if on { is_inner(winding, &block.place(at), &Vec3::repeat(BESIDE * step)) } else { w > 1.0 };
+            let twice = if on { is_inner(winding, &block.place(at), BESIDE * step) } else { w > 1.0 };
             *block.value(at) = if on {
                 if twice { ON * step } else { 0.0 }
             } else if distance.is_finite() {
@@ -141,8 +140,8 @@ fn signed(samples: &mut Samples, winding: &Winding) -> bool {
 }
 
 /// Whether the inside is all around a place, so far from it along each axis.
-fn is_inner(winding: &Winding, place: &Vec3, far: &Vec3) -> bool {
-    let side = |c: usize, a: usize| if c >> a & 1 == 1 { far[a] } else { -far[a] };
+fn is_inner(winding: &Winding, place: &Vec3, far: f64) -> bool {
+    let side = |c: usize, a: usize| if c >> a & 1 == 1 { far } else { -far };
     (0..8).all(|c| winding.at(&(place + Vec3::from([0, 1, 2].map(|a| side(c, a))))) > 0.5)
 }
 

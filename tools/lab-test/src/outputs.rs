@@ -34,16 +34,14 @@ pub fn write(
     folder: &Path,
 ) -> anyhow::Result<()> {
     // Without a curve there is nothing that a file could hold: the error says why.
-    if curves(specimens).next().is_none() {
-        return Ok(());
-    }
+    let Some((first, _)) = curves(specimens).next() else { return Ok(()) };
     text(&args.output, &csv(lab, specimens))?;
     if let Some(file) = &args.plot {
         let bytes = plot::chart(file, &chart(lab, specimens)).map_err(|e| anyhow!("--plot {e}"))?;
         bytes_to(file, &bytes)?;
     }
     if let Some(page) = &args.page {
-        write_page(page, lab, specimens, folder)?;
+        write_page(page, lab, first, folder)?;
     }
     if let Some(file) = &args.words {
         bytes_to(file, words::table(summary).as_bytes())?;
@@ -130,9 +128,8 @@ fn chart(lab: &Lab, specimens: &Specimens) -> Chart {
 }
 
 /// The page of the first specimen that came to its end, by dem-view.
-fn write_page(page: &Path, lab: &Lab, specimens: &Specimens, folder: &Path) -> anyhow::Result<()> {
-    let Some((loading, _)) = curves(specimens).next() else { return Ok(()) };
-    let run = folder.join(lab.name(loading)).join("test.mcap");
+fn write_page(page: &Path, lab: &Lab, first: &Loading, folder: &Path) -> anyhow::Result<()> {
+    let run = folder.join(lab.name(first)).join("test.mcap");
     let program = lab::lab::beside_this_program()?.join("dem-view");
     let viewed = std::process::Command::new(program)
         .arg(run)

@@ -42,8 +42,8 @@ pub struct Measure {
     value: String,
     /// Whether a column is meant, though the summary may have a value of that name.
     each: bool,
-    /// Whether it is a profile, or one number; `None`: its name does not tell.
-    profile: Option<bool>,
+    /// Whether its name tells that it is one number of a run.
+    number: bool,
     /// Options of dem-measure.
     options: Vec<String>,
 }
@@ -70,16 +70,15 @@ impl Measure {
                 Some(column) => (column.trim().to_owned(), true),
                 None => (value, false),
             };
-            let profile = each.then_some(true);
-            return Ok(Measure { name: value.replace('_', " "), value, each, profile, options });
+            return Ok(Measure { name: value.replace('_', " "), value, each, number: false, options });
         }
         let words = own(text);
         let name = words.first().map_or("", String::as_str);
         if let Some(Known { name, option, value }) = KNOWN.iter().find(|known| known.name == name) {
             let options = [vec![(*option).to_owned()], words[1..].to_vec()].concat();
-            let profile = Some(*option == "--profile");
+            let number = *option != "--profile";
             let (name, value) = (name.replace('-', " "), (*value).to_owned());
-            return Ok(Measure { name, value, each: false, profile, options });
+            return Ok(Measure { name, value, each: false, number, options });
         }
         let near = scene::nearest(name, KNOWN.iter().map(|k| k.name));
         let hint = near.map_or(String::new(), |near| format!("; did you mean '{near}'?"));
@@ -92,7 +91,7 @@ impl Measure {
 
     /// Whether it is known to be one number of a run, of which a norm makes nothing else.
     pub fn is_number(&self) -> bool {
-        self.profile == Some(false)
+        self.number
     }
 
     /// Measures a run, or reads what was measured before.
@@ -177,7 +176,7 @@ mod tests {
             "rows": [[0.1, 1.0], [0.2, null]], "summary": {"angle": {"value": 30.5, "unit": "deg"}, "bad": {"value": null}}});
         let find = |value: &str| {
             let (name, value, options) = (String::new(), value.into(), vec!["--x".into()]);
-            Measure { name, value, each: false, profile: None, options }.find(&sheet)
+            Measure { name, value, each: false, number: false, options }.find(&sheet)
         };
         let measured = |values: &[f64], unit: &str| Measured { values: values.to_vec(), unit: unit.into() };
         assert_eq!(find("angle").unwrap(), measured(&[30.5], "deg"));

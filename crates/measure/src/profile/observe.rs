@@ -41,9 +41,7 @@ impl BoxOfFrames {
         if frame.is_empty() || !self.which.holds(run, frame.time) {
             return;
         }
-        let bounds = self
-            .turn
-            .map_or_else(|| in_box(run, &frame.with_images(run)), |turn| seen_along(frame, turn).bounds());
+        let bounds = self.turn.map_or_else(|| in_box(run, frame), |turn| seen_along(frame, turn).bounds());
         self.corners = Some(self.corners.map_or(bounds, |b| (b.0.inf(&bounds.0), b.1.sup(&bounds.1))));
     }
 
@@ -84,11 +82,11 @@ impl Profile {
     }
 }
 
-/// The box around all grains and their images, as far as the periodic box reaches.
-fn in_box(run: &Run, images: &Frame) -> (Vec3, Vec3) {
-    let (mut low, mut high) = images.bounds();
-    for (axis, (from, to)) in run.periodic.iter().enumerate().filter_map(|(k, range)| Some((k, (*range)?))) {
-        (low[axis], high[axis]) = (low[axis].max(from), high[axis].min(to));
+/// The box around all grains; along an axis that one reaches through a periodic face of, the whole period: its image is at the other.
+fn in_box(run: &Run, frame: &Frame) -> (Vec3, Vec3) {
+    let ((mut low, mut high), room) = (frame.bounds(), run.room());
+    for axis in (0..3).filter(|&k| low[k] < room.0[k] || high[k] > room.1[k]).collect::<Vec<usize>>() {
+        (low[axis], high[axis]) = (room.0[axis], room.1[axis]);
     }
     (low, high)
 }
@@ -122,16 +120,18 @@ impl OfFrame for Profile {
 
     fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
         // Turned, the axes of the grid are not those of the box: what of a ball is beyond a face stays there.
-        let (seen, room) = match self.options.turn {
-            Some(turn) => (Cow::Owned(seen_along(frame, turn)), Run::default().room()),
-            None => (frame.with_images(run), run.room()),
+        let (seen, room, bounds) = match self.options.turn {
+            Some(turn) => {
+                let turned = seen_along(frame, turn);
+                let bounds = turned.bounds();
+                (Cow::Owned(turned), Run::default().room(), bounds)
+            }
+            None => (frame.with_images(run), run.room(), in_box(run, frame)),
         };
-        let (fields, turned) = (self.fields(&seen)?, self.options.turn.map(|turn| seen_along(frame, turn)));
-        let frame = turned.as_ref().unwrap_or(frame);
+        let fields = self.fields(&seen)?;
         if frame.is_empty() && self.options.corners.is_none() && self.grid.is_none() {
             return Ok(Vec::new());
         }
-        let bounds = if turned.is_some() { frame.bounds() } else { in_box(run, &seen) };
         self.bounds = Some(self.bounds.map_or(bounds, |b| (b.0.inf(&bounds.0), b.1.sup(&bounds.1))));
         let (low, high) = self.options.corners.or(self.grid.as_ref().map(Grid::corners)).unwrap_or(bounds);
         let kept = if self.options.mean { self.grid.take() } else { None };
@@ -143,7 +143,8 @@ impl OfFrame for Profile {
         if self.options.corners.is_none() {
             let outside = |p: &&Vec3| (0..3).any(|k| p[k] < low[k] || p[k] > high[k]);
             self.grains[0] += frame.len() as u64;
-            self.grains[1] += frame.position.iter().filter(outside).count() as u64;
+            // Images come behind the grains.
+            self.grains[1] += seen.position.iter().take(frame.len()).filter(outside).count() as u64;
         }
         self.fraction = grid.solid_fraction();
         let rows = if self.options.mean { Vec::new() } else { grid.rows() };
