@@ -13,6 +13,7 @@ mod phases;
 mod rest;
 mod rubbing;
 mod squeezed;
+mod tangential;
 mod thornton;
 mod triaxial;
 mod yielding;
