@@ -6,6 +6,7 @@ mod bonds;
 mod direct;
 mod hopper;
 mod impacts;
+mod limits;
 mod mindlin;
 mod oblique;
 mod orders;
