@@ -70,6 +70,7 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
             sums: Sums::default(),
             both: false,
             kept: WrenchSlicesMut::default(),
+            patch: &[],
             each: WrenchSlicesMut { forces: &mut forces, torques: torques_of },
             ledger: &mut [],
         };

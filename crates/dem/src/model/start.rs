@@ -2,10 +2,11 @@
 
 use crate::effects::{ContactLaw, Damping, Elastic, Pair};
 use crate::kernel::compose::compose;
-use crate::model::limit::{contact_between, critical_step, grains, largest, radii_by_material};
+use crate::kernel::patch::PatchLaw;
+use crate::model::limit::{contact_between, critical_step, grains, largest, normal, radii_by_material};
 use crate::model::matched;
 use crate::model::{DenseWalls, Kind, RepeatedMotion, SetupError, With};
-use crate::setup::{Setup, Step};
+use crate::setup::{Setup, Step, WallShape};
 use crate::walls::WallBody;
 
 /// By how much a step that is read from a message may be rounded [–].
@@ -92,7 +93,8 @@ pub fn kinds(setup: &Setup, dt: f64) -> Result<Vec<Kind>, SetupError> {
         let damping =
             setup.contacts.iter().zip(&matched).find(|(c, _)| known(c)).map_or(damping, |(_, d)| *d);
         let pair = Pair { law, elastic, compliance: setup.compliance(a, b, crowd(a, with)), damping };
-        Ok(Kind { kernel: compose(&pair, setup.precision), between: (a, b), with })
+        let patch = patch(setup, law, elastic, with);
+        Ok(Kind { kernel: compose(&pair, setup.precision), between: (a, b), with, patch })
     };
     for &a in &present {
         for &b in present.iter().filter(|&&b| a <= b) {
@@ -106,4 +108,13 @@ pub fn kinds(setup: &Setup, dt: f64) -> Result<Vec<Kind>, SetupError> {
         }
     }
     Ok(list)
+}
+
+/// How the contacts of a kind share a wall of spheres, and that a spring lets a wall move.
+fn patch(setup: &Setup, law: &ContactLaw, elastic: Elastic, with: With) -> Option<PatchLaw> {
+    let With::Wall(w) = with else { return None };
+    let (wall, normal) = (&setup.walls[w], normal(law).filter(|_| setup.patches)?);
+    let shared = matches!(wall.shape, WallShape::Spheres(_));
+    let gap = (normal.reach)(law, elastic, 1.0);
+    (shared || wall.mount.is_some()).then_some(PatchLaw { shared, hertz: normal.stiffens, gap })
 }

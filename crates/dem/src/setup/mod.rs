@@ -83,6 +83,8 @@ pub struct Setup {
     pub strain: [Option<Strain>; 3],
     /// Which part of a step the force of a contact stands for.
     pub sampling: Sampling,
+    /// Whether the spheres of a wall that a grain touches at once act as one contact ([`crate::kernel::patch`]); else each acts by itself.
+    pub patches: bool,
     /// In which precision contacts are computed.
     pub precision: Precision,
     /// Neighbours are listed up to this gap [m]; `None` chooses.
@@ -123,6 +125,7 @@ impl Default for Setup {
             periodic: [None; 3],
             strain: [const { None }; 3],
             sampling: Sampling::default(),
+            patches: true,
             precision: Precision::Double,
             skin: None,
             sleep: None,
