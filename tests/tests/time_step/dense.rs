@@ -53,6 +53,6 @@ fn only_dense_walls_shorten_the_step() {
     NAMED.refused(
         "a twentieth of a radius",
         &dense.cause.to_string(),
-        &["wall 'floor'", "of its spheres at once"],
+        &["wall 'floor'", "times as stiff as one of its spheres"],
     );
 }

@@ -37,7 +37,12 @@ pub const DESCRIPTION: Description = Description {
         unit: "m",
         doc: "δ_max, the largest overlap so far",
     }],
-    normal: Some(NormalLaw { stiffest: |law, _, _| unloading(law), reach: |_, _, _| 0.0, unloaded_overlap, stiffens: false }),
+    normal: Some(NormalLaw {
+        stiffest: |law, _, _| unloading(law),
+        reach: |_, _, _| 0.0,
+        unloaded_overlap,
+        stiffens: false,
+    }),
     ..Description::PLAIN
 };
 

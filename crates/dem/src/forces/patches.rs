@@ -91,7 +91,8 @@ impl TileSlice<'_> {
         let reach = row[3] + way + inputs.model.reach;
         let touches = |k: &usize| {
             let other = self.point(s, *k);
-            let far = reach + other[3];
+            // A little more, so that no rounding leaves out what [`Touch::of`] finds.
+            let far = (reach + other[3]) * (1.0 + 1e-9);
             (row.position() - other.position()).norm_squared() < far * far
         };
         contacts.filter(touches).nth(1).is_some()
@@ -100,7 +101,13 @@ impl TileSlice<'_> {
 
 impl Near {
     /// Gives the numbers of each contact of a patch; nothing where at most one is touched. `remembers`: whether springs know their stiffness a step ago.
-    fn find(&mut self, law: PatchLaw, remembers: bool, bodies: &Bodies, mut put: impl FnMut(usize, [f64; PATCH])) {
+    fn find(
+        &mut self,
+        law: PatchLaw,
+        remembers: bool,
+        bodies: &Bodies,
+        mut put: impl FnMut(usize, [f64; PATCH]),
+    ) {
         let Near { touches, terms, shares } = self;
         let count = touches.len();
         let Some(mut patch) = Patch::of(law, count, |k| touches[k]) else { return };

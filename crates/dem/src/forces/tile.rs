@@ -27,6 +27,8 @@ pub struct TileInputs<'a> {
     pub lengths: Vec3,
     /// What all contacts share.
     pub step: StepInputs<'a>,
+    /// Whether contact points and patches are those of this instant.
+    pub pointed: bool,
     /// Which particles sleep, where the scene asks for it.
     pub sleepers: Option<SleepMap<'a>>,
 }
@@ -115,6 +117,9 @@ impl TileSlice<'_> {
 
     /// Finds the contact points of images and walls as they are now.
     pub fn find_contact_points(&mut self, s: &Segment, inputs: &TileInputs) {
+        if inputs.pointed {
+            return;
+        }
         match s.with {
             With::Images => self.shift_images(s, inputs),
             With::Wall(w) if inputs.lists.new || inputs.model.walls[w].refreshes() => {

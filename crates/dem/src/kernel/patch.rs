@@ -44,7 +44,7 @@ pub struct PatchLaw {
 impl PatchLaw {
     /// Energy and force of a sphere alone, up to a factor that all spheres share.
     #[inline(always)]
-    fn alone(self, overlap: f64, radius: f64) -> [f64; 2] {
+    pub fn alone(self, overlap: f64, radius: f64) -> [f64; 2] {
         if self.hertz {
             let root = (radius * overlap).sqrt();
             [root * overlap * overlap, root * overlap]
@@ -171,7 +171,8 @@ impl<F: Fn(usize) -> Touch> Patch<'_, F> {
         if touched < 2 {
             return None;
         }
-        let mut new = Patch { law, count, touch, deepest, largest, sums: [0.0; 2], together: true, known: &[] };
+        let mut new =
+            Patch { law, count, touch, deepest, largest, sums: [0.0; 2], together: true, known: &[] };
         let middle = (new.touch)(deepest);
         for k in 0..count {
             let of = (new.touch)(k);
@@ -274,7 +275,13 @@ impl<F: Fn(usize) -> Touch> Patch<'_, F> {
 
     /// Numbers of sphere `k`, where all together `push`, with the share of each.
     #[inline(always)]
-    pub fn numbers(&self, k: usize, push: &Vec3, bodies: &Bodies, share: impl Fn(usize) -> [f64; 2]) -> [f64; PATCH] {
+    pub fn numbers(
+        &self,
+        k: usize,
+        push: &Vec3,
+        bodies: &Bodies,
+        share: impl Fn(usize) -> [f64; 2],
+    ) -> [f64; PATCH] {
         if self.touch(k).overlap <= 0.0 {
             return ALONE;
         }

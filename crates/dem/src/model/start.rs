@@ -93,7 +93,7 @@ pub fn kinds(setup: &Setup, dt: f64) -> Result<Vec<Kind>, SetupError> {
         let damping =
             setup.contacts.iter().zip(&matched).find(|(c, _)| known(c)).map_or(damping, |(_, d)| *d);
         let pair = Pair { law, elastic, compliance: setup.compliance(a, b, crowd(a, with)), damping };
-        let patch = patch(setup, law, elastic, with);
+        let patch = patch(setup, law, elastic, (a, b), with);
         Ok(Kind { kernel: compose(&pair, setup.precision), between: (a, b), with, patch })
     };
     for &a in &present {
@@ -110,11 +110,19 @@ pub fn kinds(setup: &Setup, dt: f64) -> Result<Vec<Kind>, SetupError> {
     Ok(list)
 }
 
-/// How the contacts of a kind share a wall of spheres, and that a spring lets a wall move.
-fn patch(setup: &Setup, law: &ContactLaw, elastic: Elastic, with: With) -> Option<PatchLaw> {
-    let With::Wall(w) = with else { return None };
-    let (wall, normal) = (&setup.walls[w], normal(law).filter(|_| setup.patches)?);
-    let shared = matches!(wall.shape, WallShape::Spheres(_));
+/// How contacts of a kind act together: those with the spheres of a wall, those of clumps, and those with a wall that a spring lets move.
+fn patch(
+    setup: &Setup,
+    law: &ContactLaw,
+    elastic: Elastic,
+    (a, b): (u16, u16),
+    with: With,
+) -> Option<PatchLaw> {
+    let normal = normal(law).filter(|_| setup.patches)?;
+    let clumps = setup.clumps.shapes.iter().any(|shape| shape.material == a || shape.material == b);
+    let wall = if let With::Wall(w) = with { Some(&setup.walls[w]) } else { None };
+    let shared = wall.is_some_and(|wall| matches!(wall.shape, WallShape::Spheres(_)));
     let gap = (normal.reach)(law, elastic, 1.0);
-    (shared || wall.mount.is_some()).then_some(PatchLaw { shared, hertz: normal.stiffens, gap })
+    let together = shared || clumps || wall.is_some_and(|wall| wall.mount.is_some());
+    together.then_some(PatchLaw { shared, hertz: normal.stiffens, gap })
 }

@@ -66,7 +66,8 @@ impl Slots {
                 return;
             }
             let padded = len.next_multiple_of(BLOCK);
-            let (with, slots, patches) = (kinds[kind].with, first..first + padded, kinds[kind].patch.is_some());
+            let (with, slots, patches) =
+                (kinds[kind].with, first..first + padded, kinds[kind].patch.is_some());
             new.segments.push(Segment { kind, with, slots, len, later, history, rows, kept, patch, patches });
             first += padded;
             history += padded * layout.history(kinds[kind].kernel.columns());

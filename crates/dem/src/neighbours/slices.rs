@@ -18,6 +18,8 @@ pub struct StepColumns {
     pub spins: Vec<Row4>,
     /// Patches that contacts belong to, [`crate::kernel::patch::PATCH`] numbers each by block and column.
     pub patch: Vec<f64>,
+    /// Whether contact points and patches are those of this instant.
+    pub pointed: bool,
     /// Whether the wrenches or the history of a block are not all zero.
     pub active: Vec<bool>,
     /// Wrenches that are kept for other tiles.
@@ -91,7 +93,7 @@ impl NeighbourLists {
     /// What is computed, with the columns that it is computed in.
     pub fn with<'a>(&'a mut self, columns: &'a mut ContactColumns) -> Computed<'a> {
         let ContactColumns { layout, history, ledger, wrenches, keeps, sums, .. } = columns;
-        let StepColumns { rows, spins, patch, active, kept, resting_tiles } = &mut self.step;
+        let StepColumns { rows, spins, patch, active, kept, resting_tiles, .. } = &mut self.step;
         let (layout, slots) = (*layout, &self.slots);
         let slice = TileSlice {
             segments: &slots.segments,
@@ -169,8 +171,13 @@ impl<'a> TileSlice<'a> {
         let (segments, others) = self.segments.split_at(count);
         let Some(next) = others.first() else { return std::mem::take(self) };
         let (from, layout) = (self.from, self.layout);
-        let to =
-            SliceStart { slot: next.slots.start, row: next.rows, history: next.history, kept: next.kept, patch: next.patch };
+        let to = SliceStart {
+            slot: next.slots.start,
+            row: next.rows,
+            history: next.history,
+            kept: next.kept,
+            patch: next.patch,
+        };
         (self.segments, self.from) = (others, to);
         let (slots, rows) = (to.slot - from.slot, to.row - from.row);
         TileSlice {
