@@ -2,6 +2,7 @@
 
 mod belts;
 mod clumps;
+mod concave;
 mod effects_adhesion;
 mod effects_forces;
 mod effects_together;

@@ -7,15 +7,15 @@
 //! ξ ← ξ min(1, k_before/k)            a spring that stiffens keeps its force, one that softens its length
 //! ξ at t = ξ + (½ + p Δt²) v Δt        the rest of the step's way, (½ − p Δt²) v Δt, comes after: the midpoint rule, a little late,
 //!                                     because v is predicted, which alone would make energy, (ω Δt)⁴/8 a step; p = ω²/4
-//! F = −k ξ − c v,  where |F| > cap: F ← F cap/|F|,  ξ ← ξ min(1, cap/|k ξ|)
+//! F = −k ξ − c v,  where |F| > cap: F ← F cap/|F|,  the slider gives way at (|F| − cap)/c along −F
 //! ```
 //!
-//! The spring is cut only where the whole force passes the cap: where the spring alone would, and the dashpot takes some of it back, it keeps
-//! its length. A contact that ends loses what its spring holds; the ledger books that as dissipated by the effect.
+//! Spring and dashpot side by side, and a slider behind both that bears the cap: ξ̇ = (cap − k ξ)/c as it slides, so that k ξ tends to the cap within c/k,
+//! without a dashpot at once. Nothing jumps where sliding begins or ends, so results have a limit as Δt → 0; k ξ never passes the largest cap, however soft
+//! the spring is (Hertz at first touch), and nothing makes energy. A contact that ends loses what its spring holds; the ledger books that as dissipated by the effect.
 //!
-//! Cutting ξ back to the cap: Luding (2008), Granular Matter 10(4), doi:10.1007/s10035-008-0099-x. Deviation: the spring is
-//! cut to the cap, not to the capped force less the dashpot's: that has no bound as k → 0 (Hertz at first touch), and it
-//! stretches the spring, out of nothing, where the dashpot alone passes the cap. Stiffening and softening so that
+//! Cutting ξ back to the cap: Luding (2008), Granular Matter 10(4), doi:10.1007/s10035-008-0099-x. Deviation: there, the spring is
+//! cut at once to the capped force less the dashpot's, which stretches it, out of nothing, where the dashpot alone passes the cap. Stiffening and softening so that
 //! neither makes energy: Mindlin & Deresiewicz (1953), J. Appl. Mech. 20; Thornton, Cummins & Cleary (2013), Powder
 //! Technology 233, doi:10.1016/j.powtec.2012.08.012.
 
@@ -81,6 +81,8 @@ pub struct CappedSpring<R: Lane> {
     pub stiffness: R,
     /// k of the step before over k [–].
     pub before: R,
+    /// The same as the spring held energy in the step before: `before` is from a predicted velocity.
+    pub booked: R,
     /// k of the step before, where the contact has just ended.
     pub last: R,
     /// c, dashpot.
@@ -108,6 +110,13 @@ impl<R: Lane> CappedSpring<R> {
         (self.cap / square.max(R::splat(R::TINY)).sqrt()).min(R::splat(1.0))
     }
 
+    /// How far the spring gives way in a step, over the force beyond the cap: (1 − exp(−k Δt/c))/k, by the midpoint rule, all of it from 2 c/k on.
+    #[inline(always)]
+    fn slack(&self, dt: R) -> R {
+        let slow = dt / (self.damping + R::splat(0.5) * dt * self.stiffness);
+        slow.min(R::splat(1.0) / self.stiffness)
+    }
+
     /// Moves the spring by `rate` over `dt`, and gives its force.
     #[inline(always)]
     pub fn pull<X: Stretch<R>>(&self, spring: &mut X, rate: X, dt: R) -> Outcome<R, X> {
@@ -117,15 +126,15 @@ impl<R: Lane> CappedSpring<R> {
         let there = *spring;
         let keeps = self.before.min(R::splat(1.0));
         let stretched = there.scale(keeps) + half;
-        let lost = R::splat(0.5) * self.stiffness * there.dot(there) * (self.before - keeps * keeps);
+        let lost = R::splat(0.5) * self.stiffness * there.dot(there) * (self.booked - keeps * keeps);
         let dashpot = rate.scale(self.damping);
         let mut force = X::zero() - stretched.scale(self.stiffness) - dashpot;
         let mut kept = stretched;
         let size = force.dot(force);
         let slides = R::both(self.touching, size.gt(self.cap * self.cap));
         if R::any(slides) {
-            let pull = stretched.scale(self.stiffness);
-            kept = X::select(slides, stretched.scale(self.share(pull.dot(pull))), stretched);
+            let beyond = R::splat(1.0) - self.share(size);
+            kept = X::select(slides, stretched + force.scale(beyond * self.slack(dt)), stretched);
             force = X::select(slides, force.scale(self.share(size)), force);
         }
         *spring = kept + rest;

@@ -143,6 +143,8 @@ pub struct NormalLaw {
     pub stiffest: fn(&ContactLaw, Elastic, OverlapLimit) -> f64,
     /// Largest gap [m] at which a contact that was made still acts, for a particle of this R* [m].
     pub reach: fn(&ContactLaw, Elastic, f64) -> f64,
+    /// k_n over S [–]: the tangential stiffness is given by k_n, and effects take a share of S.
+    pub nominal: fn(&ContactLaw) -> f64,
     /// Overlap of two particles that bear no load under a pull of this energy density [J/m³] × the area of contact, over the smaller
     /// radius [–], for radii from the first to the second [m]; infinite where the pull wins.
     pub unloaded_overlap: fn(&ContactLaw, Elastic, f64, [f64; 2]) -> f64,

@@ -23,7 +23,13 @@ pub const DESCRIPTION: Description = Description {
     model: Some(Model { key: "law", value: "hertz", default: true }),
     keys: &[RESTITUTION],
     every_precision: true,
-    normal: Some(NormalLaw { stiffest, reach: |_, _, _| 0.0, unloaded_overlap, stiffens: true }),
+    normal: Some(NormalLaw {
+        stiffest,
+        reach: |_, _, _| 0.0,
+        nominal: |_| 1.0,
+        unloaded_overlap,
+        stiffens: true,
+    }),
     ..Description::PLAIN
 };
 

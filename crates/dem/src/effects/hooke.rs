@@ -41,7 +41,7 @@ pub const TANGENTIAL_RATIO: Key = Key {
     range: Range::Positive,
     required: false,
     example: "0.8",
-    doc: "k_t/k_n; absent: 4 G*/E* of the materials (Mindlin)",
+    doc: "k_t/k_n, of the `stiffness` or modulus as it is given; absent: 4 G*/E* of the materials (Mindlin)",
 };
 
 /// k_t of linear laws, as a number.
@@ -74,7 +74,13 @@ pub const DESCRIPTION: Description = Description {
     picked: |law| !(hooke_direct::DESCRIPTION.picked)(law),
     contradiction,
     every_precision: true,
-    normal: Some(NormalLaw { stiffest, reach: |_, _, _| 0.0, unloaded_overlap, stiffens: false }),
+    normal: Some(NormalLaw {
+        stiffest,
+        reach: |_, _, _| 0.0,
+        nominal: |_| 1.0,
+        unloaded_overlap,
+        stiffens: false,
+    }),
     ..Description::PLAIN
 };
 

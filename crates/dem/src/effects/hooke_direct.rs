@@ -64,7 +64,13 @@ pub const DESCRIPTION: Description = Description {
     picked: |law| by_modulus(law) || law.number(NORMAL_DAMPING.name).is_some(),
     contradiction,
     every_precision: false,
-    normal: Some(NormalLaw { stiffest, reach: |_, _, _| 0.0, unloaded_overlap, stiffens: false }),
+    normal: Some(NormalLaw {
+        stiffest,
+        reach: |_, _, _| 0.0,
+        nominal: |_| 1.0,
+        unloaded_overlap,
+        stiffens: false,
+    }),
     ..hooke::DESCRIPTION
 };
 

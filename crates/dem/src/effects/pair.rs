@@ -1,7 +1,7 @@
 //! What effects are made of: the numbers of a contact law, and what follows from its two materials.
 
 use super::friction::TANGENTIAL_DAMPING;
-use super::{ContactLaw, Damping, NORMAL_DAMPING, RESTITUTION};
+use super::{ContactLaw, Damping, NORMAL_DAMPING, RESTITUTION, active};
 #[cfg(target_arch = "nvptx64")]
 use crate::float::Float as _;
 use alloc::string::String;
@@ -73,10 +73,11 @@ impl Pair<'_> {
     }
 }
 
-/// k_t over the normal law's stiffness [–].
+/// k_t over S [–], the stiffness that effects see of the normal law: k_t/k_n is given, or Mindlin's, and k_n may be another one than S.
 pub fn tangential_ratio(law: &ContactLaw, elastic: Elastic) -> f64 {
     let of_stiffness = || Some(law.number("tangential_stiffness")? / law.number("stiffness")?);
-    law.number("tangential_ratio").or_else(of_stiffness).unwrap_or(elastic.tangential_ratio)
+    let given = law.number("tangential_ratio").or_else(of_stiffness).unwrap_or(elastic.tangential_ratio);
+    given * active(law).find_map(|d| d.normal).map_or(1.0, |normal| (normal.nominal)(law))
 }
 
 /// Damping ratio of a linear oscillator that rebounds with restitution `e` when it is let go at δ = 0:

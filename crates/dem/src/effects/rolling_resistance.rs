@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! θ ← θ + ω_r Δt,   ω_r = (ω_i − ω_j) − its part along n
-//! M = −k_r θ − c_r ω_r,  |M| ≤ μ_r R* F_n        with cohesion F_n is without its pull
+//! M = −k_r θ − c_r ω_r,  |M| ≤ μ_r R* F_p        F_p: what presses, as for sliding: with JKR F_n + 2 F_po, with cohesion F_n without its pull
 //! k_r = 2.25 S (μ_r R*)²,   c_r = 2 η √(k_r I_r),  η = 0.3,  I_r = 7/5 m* R*²
 //! ```
 //!
@@ -24,7 +24,7 @@ pub const COEFFICIENT: Key = Key {
     range: Range::UpTo(1e3),
     required: true,
     example: "0.1",
-    doc: "μ_r: caps the torque by μ_r R* F_n",
+    doc: "μ_r: caps the torque at μ_r R* × what presses, as `sliding_friction` counts it",
 };
 
 /// What the program knows of it.
@@ -77,11 +77,13 @@ impl Effect for RollingResistance {
         let rolling = contact.spin - n.scale(contact.spin.dot(n));
         let arm = R::splat(self.resistance) * contact.radius;
         let stiffness = (R::splat(2.25) * response.stiffness * arm * arm).max(R::splat(R::TINY));
+        let [before, booked, last] = response.earlier(contact);
         let spring = CappedSpring {
             touching: contact.touching,
             stiffness,
-            before: response.stiffness_before,
-            last: R::splat(2.25) * response.stiffness_last * arm * arm,
+            before,
+            booked,
+            last: R::splat(2.25) * last * arm * arm,
             // √(k_r I_r) = √(2.25 S (μ_r R*)² 7/5 m* R*²), and the frequency k_r/I_r, without R*.
             damping: R::splat(2.0 * ETA * (2.25f64 * 1.4).sqrt()) * arm * contact.radius * response.impedance,
             pace: R::splat(0.25 * 2.25 / 1.4 * self.resistance * self.resistance)

@@ -112,11 +112,13 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
         // A stiffness of 0 at δ = 0 (Hertz) would be divided by; nothing holds there in any case.
         let stiffness = (R::splat(self.stiffness_ratio) * response.stiffness).max(R::splat(R::TINY));
         let of_law = R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * response.impedance;
+        let [before, booked, last] = response.earlier(contact);
         let spring = CappedSpring {
             touching: contact.touching,
             stiffness,
-            before: response.stiffness_before,
-            last: R::splat(self.stiffness_ratio) * response.stiffness_last,
+            before,
+            booked,
+            last: R::splat(self.stiffness_ratio) * last,
             damping: self.friction.dashpot(of_law),
             // A quarter of the square of the fastest motion of a close packing: all grains turning the same way, 20 k_t/m*,
             // or layers against layers, 4 (S + k_t)/m*, which the spring would feed otherwise.

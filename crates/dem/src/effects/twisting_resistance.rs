@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! φ ← φ + ω_n Δt,   ω_n = (ω_i − ω_j)·n
-//! M = (−k_w φ − c_w ω_n) n,  |M| ≤ μ_w R* F_n        with cohesion F_n is without its pull
+//! M = (−k_w φ − c_w ω_n) n,  |M| ≤ μ_w R* F_p        F_p: what presses, as for sliding: with JKR F_n + 2 F_po, with cohesion F_n without its pull
 //! k_w = k_t R*²,   c_w = 2 η √(k_w I_w),  η = 0.3,  I_w = 2/5 m* R*²
 //! ```
 //!
@@ -29,7 +29,7 @@ pub const DESCRIPTION: Description = Description {
         range: Range::UpTo(1e3),
         required: true,
         example: "0.05",
-        doc: "μ_w: caps the torque by μ_w R* F_n",
+        doc: "μ_w: caps the torque at μ_w R* × what presses, as `sliding_friction` counts it",
     }],
     history: &[Field { name: "twisting", kind: Kind::Scalar, unit: "rad", doc: "φ, the angle" }],
     needs: Some(Slot::Sliding),
@@ -81,11 +81,13 @@ impl Effect for TwistingResistance {
         let square = contact.radius * contact.radius;
         let stiffness = (R::splat(self.stiffness_ratio) * response.stiffness * square).max(R::splat(1e-150));
         let inertia = R::splat(0.4) * contact.mass * square;
+        let [before, booked, last] = response.earlier(contact);
         let spring = CappedSpring {
             touching: contact.touching,
             stiffness,
-            before: response.stiffness_before,
-            last: R::splat(self.stiffness_ratio) * response.stiffness_last * square,
+            before,
+            booked,
+            last: R::splat(self.stiffness_ratio) * last * square,
             damping: R::splat(2.0 * ETA) * (stiffness * inertia).sqrt(),
             pace: R::splat(0.25 * self.compliance) * stiffness / inertia,
             cap: R::splat(self.resistance) * contact.radius * response.pressing.max(R::splat(0.0)),

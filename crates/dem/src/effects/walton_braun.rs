@@ -7,8 +7,8 @@
 //! E = F_n²/2k₂,   plastic work W = ½ k₁ (1 − k₁/k₂) δ_max²
 //! ```
 //!
-//! Walton & Braun (1986), J. Rheology 30, doi:10.1122/1.549893. S, which the time step, friction and resistances take, is k₂: a
-//! contact at rest moves along that line. The flattened spot is forgotten when the spheres part. It has no dashpot: along the line of
+//! Walton & Braun (1986), J. Rheology 30, doi:10.1122/1.549893. S, which the time step, rolling and dashpots take, is k₂: a
+//! contact at rest moves along that line; k_t is a share of k₁, as it is given. The flattened spot is forgotten when the spheres part. It has no dashpot: along the line of
 //! unloading nothing is lost, and small vibrations last; W is lost at once, as δ_max grows.
 
 use super::hooke::{STIFFNESS, TANGENTIAL_RATIO, TANGENTIAL_STIFFNESS, contradiction, unloaded_overlap};
@@ -40,6 +40,7 @@ pub const DESCRIPTION: Description = Description {
     normal: Some(NormalLaw {
         stiffest: |law, _, _| unloading(law),
         reach: |_, _, _| 0.0,
+        nominal: |law| law.number("stiffness").unwrap_or(f64::NAN) / unloading(law),
         unloaded_overlap,
         stiffens: false,
     }),

@@ -5,7 +5,7 @@
 
 use super::averaged::{average, size};
 use super::patch::PATCH;
-use super::{Batch, LEDGER, LOST, StepInputs, WrenchBuffer};
+use super::{Batch, LEDGER, LOST, STIFFNESS, StepInputs, WrenchBuffer};
 use crate::effects::{Contact, DISSIPATORS, Effect, History, Response};
 use crate::simd::{BLOCK, FORCE, FORCE_AND_MOMENT, Indices, Lane, Number, Row, Row4, V, fetch};
 
@@ -94,6 +94,9 @@ pub fn act<R: Lane, E: Effect, T: Number, const KEEP: bool>(
         let beyond = R::select(touches, found.reach, found.contact.overlap + was_held);
         found.contact.touching = beyond.gt(R::splat(0.0));
     }
+    if KEEP {
+        found.contact.stiffness_last = stiffness_last(&batch.ledger[at * LEDGER..]);
+    }
     let part = if step.ahead > 0.0 { average(step.ahead, &mut found.contact, was_held) } else { None };
     let touching = found.contact.touching;
     let mut response = Response::zero();
@@ -127,8 +130,8 @@ pub struct Ends<'a, R: Lane> {
     radii: [R::Wide; 2],
     /// v_i − v_j, and v_j [m/s].
     velocities: [V<R::Wide>; 2],
-    /// 1/m_i + 1/m_j [1/kg].
-    inverse_mass: R::Wide,
+    /// 1/m_i and 1/m_j [1/kg].
+    inverse_masses: [R::Wide; 2],
     /// Square of the distance [m²].
     square: R::Wide,
     /// (r_i + r_j)² less that [m²].
@@ -167,7 +170,8 @@ pub fn gather<'a, R: Lane, E: Effect>(step: &StepInputs, batch: &Batch<'a>, at: 
     let square = apart.dot(apart);
     let gap = R::narrow(reach * reach - square);
     let velocities = [V::new(ui - uj, vi - vj, wi - wj), V::new(uj, vj, wj)];
-    Ends { i, j, apart, radii: [ri, rj], velocities, inverse_mass: inverse_mi + inverse_mj, square, gap }
+    let inverse_masses = [inverse_mi, inverse_mj];
+    Ends { i, j, apart, radii: [ri, rj], velocities, inverse_masses, square, gap }
 }
 
 /// A contact, and what else follows from where both ends are.
@@ -190,7 +194,8 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
     let [ri, rj] = ends.radii;
     let (apart, reach, distance) = (V::narrow(ends.apart), R::narrow(ri + rj), R::narrow(ends.square).sqrt());
     let (ri, rj) = (R::narrow(ri), R::narrow(rj));
-    let inverse_mass = R::narrow(ends.inverse_mass);
+    let [inverse_mi, inverse_mj] = ends.inverse_masses;
+    let inverse_mass = R::narrow(inverse_mi + inverse_mj);
     // One division for three: it takes as long as all multiplications of a contact.
     let both = distance * reach;
     let inverse = R::splat(1.0) / (both * inverse_mass);
@@ -204,7 +209,7 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
     let velocity = V::narrow(ends.velocities[0]);
     let along = velocity.dot(normal);
     let mut slip = velocity - normal.scale(along);
-    let (mut spin, mut turn) = (V::zero(), zero);
+    let (mut spin, mut turn, mut lever, mut inertia) = (V::zero(), zero, zero, zero);
     let (mut surface, mut spin_j) = (V::narrow(ends.velocities[1]), V::zero());
     if E::ROTATES {
         let [axi, ayi, azi, _] = R::rows4(step.spins, ends.i);
@@ -214,6 +219,14 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         surface = surface + sj.scale(arm_j).cross(normal);
         (spin, spin_j) = (si - sj, sj);
         turn = (si + sj).dot(normal) * R::splat(0.5 * step.dt);
+    }
+    if E::TORQUES {
+        // Of spheres, 1/I ∝ 1/m r²; all of it on i's side at a flat wall.
+        let (ui, uj) = (R::narrow(inverse_mi) * rj, R::narrow(inverse_mj) * ri);
+        let yields = R::splat(1.0) / (ui * rj + uj * ri).max(R::splat(R::TINY));
+        lever = R::select(round, (arm_i * ui * rj - arm_j * uj * ri) * yields, arm_i);
+        let square = R::select(round, ri * rj * (ri * rj) * yields, ri * ri * (inverse * both));
+        inertia = R::splat(0.4) * square;
     }
     let contact = Contact {
         touching: ends.gap.gt(zero),
@@ -232,6 +245,9 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         approach: -along,
         slip,
         spin,
+        lever,
+        inertia,
+        stiffness_last: zero,
         turn,
     };
     Geometry { contact, reach, share, surface, spin_j }
@@ -242,7 +258,9 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
 fn share<R: Lane>(contact: &mut Contact<R>, patch: &[f64]) {
     contact.share = R::load(patch);
     contact.share_before = R::load(&patch[BLOCK..]);
-    contact.mass = contact.mass * R::load(&patch[2 * BLOCK..]);
+    let mass = R::load(&patch[2 * BLOCK..]);
+    contact.mass = contact.mass * mass;
+    contact.inertia = contact.inertia * mass;
     contact.inverse_mass = contact.inverse_mass * R::load(&patch[3 * BLOCK..]);
 }
 
@@ -279,6 +297,16 @@ fn scatter<R: Lane, E: Effect, T: Number>(
     force
 }
 
+/// ∂F_n/∂δ of the step before, which its ledger kept [N/m].
+#[inline(always)]
+fn stiffness_last<R: Lane>(ledger: &[f64]) -> R {
+    let mut last = [0.0; BLOCK];
+    for (k, last) in last.iter_mut().enumerate().take(R::WIDTH) {
+        *last = ledger[k * LEDGER + STIFFNESS];
+    }
+    R::load(&last)
+}
+
 /// Energies of a contact in the step: see [`LEDGER`].
 #[inline(always)]
 fn ledger_row<R: Lane, E: Effect>(
@@ -306,7 +334,7 @@ fn ledger_row<R: Lane, E: Effect>(
         R::select(recent, d, zero),
         R::select(touching, surface, zero),
         R::select(touching, response.lost, zero),
-        zero,
+        R::select(touching, response.stiffness, zero),
     ];
     if E::REACHES {
         // What a contact holds when it breaks is lost.

@@ -28,10 +28,12 @@ use crate::simd::compiled::{self, Eights, Job, Lanes, Singles};
 use crate::simd::{Lane, Layout, Number, Row, Row4, Width};
 use std::marker::PhantomData;
 
-/// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling, twisting), wall work, lost at once.
+/// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling, twisting), wall work, lost at once; and its normal stiffness.
 pub const LEDGER: usize = 8;
 /// Column of what is lost at once.
 pub const LOST: usize = 6;
+/// Column of ∂F_n/∂δ, for the step after [N/m].
+pub const STIFFNESS: usize = 7;
 
 /// What all contacts share in one step.
 #[derive(Clone, Copy)]

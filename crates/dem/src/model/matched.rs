@@ -210,6 +210,9 @@ fn head_on(overlap: f64, approach: f64, dt: f64) -> Contact<f64> {
         approach,
         slip: V::zero(),
         spin: V::zero(),
+        lever: 0.0,
+        stiffness_last: 0.0,
+        inertia: 0.4,
         turn: 0.0,
     }
 }

@@ -8,6 +8,7 @@
 //! plus v_s − (v_s·n) n, with v_s that of the surface there. So a belt drives along itself and never pushes.
 
 pub(crate) mod seams;
+mod translation;
 
 use crate::kernel::wall_point::WallPose;
 use crate::setup::{Mount, Servo, Wall, WallShape};

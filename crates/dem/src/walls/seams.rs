@@ -2,22 +2,20 @@
 //!
 //! A contact is where the distance to the mesh has a local minimum: a point inside a face, or a point on an edge or at a corner
 //! that lies on no triangle which comes nearer elsewhere. So a particle on a seam touches once, in a corner between two
-//! faces twice. After Kremmer & Favier (2001), Int. J. Numer. Methods Eng. 51. Two points closer than the radius √(2 r δ) of the patch that the deeper one
-//! presses, or a tenth of r where that is less, are one contact, too: faces that are nearly in one plane never push
-//! twice.
+//! faces twice. After Kremmer & Favier (2001), Int. J. Numer. Methods Eng. 51. Points whose normals differ by less than 45° are one contact: the shortest
+//! translation out of all of them ([`super::translation`]).
 //!
 //! Memory belongs to a contact, not to a triangle: where a triangle no longer counts that did in the step before, and
 //! a neighbour without history counts, the neighbour takes over (the nearest one, within a quarter of r: contact points
 //! move less in a step). The spring is turned into the new tangent plane by the effect itself.
 
 use crate::simd::{BLOCK, Layout};
+use crate::walls::translation::{Face, groups, shortest};
 use geom::Vec3;
 use geom::triangle::{Feature, closest_feature};
 
 /// Two points closer than this share of the distance are one contact [–].
 const SAME_POINT: f64 = 1e-6;
-/// Farther than this share of the radius no two points are one contact [–].
-const LARGEST_PATCH: f64 = 0.1;
 /// Memory goes no farther than this share of the radius [–].
 const STRIDE: f64 = 0.25;
 /// Points farther than this share of the radius are no contacts where nothing adheres [–].
@@ -28,7 +26,7 @@ const NEAR: f64 = 1.02;
 pub struct Nearest {
     triangle: [Vec3; 3],
     centre: Vec3,
-    /// From the centre of the particle to the point [m].
+    /// From the centre of the particle to the point; where it is part of a contact of several, to the point of that [m].
     pub way: Vec3,
     square: f64,
     face: bool,
@@ -52,11 +50,9 @@ impl Nearest {
         (closest_feature(self.triangle, position).0 - position).norm_squared() <= tolerance * tolerance
     }
 
-    /// Square of the distance within which another point is the same contact [m²].
-    fn patch(&self, radius: f64) -> f64 {
-        let distance = self.square.sqrt();
-        let pressed = (2.0 * radius * (radius - distance)).clamp(0.0, (LARGEST_PATCH * radius).powi(2));
-        pressed.max((SAME_POINT * distance).powi(2))
+    /// Square of the distance within which another point is the same [m²].
+    fn blur(&self) -> f64 {
+        (SAME_POINT * SAME_POINT) * self.square
     }
 }
 
@@ -74,9 +70,37 @@ pub fn count(near: &mut [Nearest], radius: f64, reach: f64) {
     });
     for (n, &k) in order.iter().enumerate() {
         let mine = near[k];
-        let same = |m: &Nearest| m.counts && (m.way - mine.way).norm_squared() <= m.patch(radius);
+        let same = |m: &Nearest| m.counts && (m.way - mine.way).norm_squared() <= m.blur();
         let nearer = |m: &Nearest| !mine.face && m.square < mine.square && m.holds(&mine.way);
         near[k].counts = !order[..n].iter().any(|&m| same(&near[m]) || nearer(&near[m]));
+    }
+    order.retain(|&k| near[k].counts);
+    join(near, &order, radius);
+}
+
+/// Joins contacts whose normals differ little, of some in the order of their distance; those that do not bear most no longer count.
+fn join(near: &mut [Nearest], order: &[usize], radius: f64) {
+    if order.len() < 2 {
+        return;
+    }
+    let face = |k: &usize| {
+        let distance = near[*k].square.sqrt();
+        Face { normal: near[*k].way / -distance, overlap: radius - distance }
+    };
+    let faces: Vec<Face> = order.iter().map(face).collect();
+    let group = groups(&faces);
+    for first in 0..order.len() {
+        let members: Vec<usize> = (first..order.len()).filter(|&k| group[k] == first).collect();
+        let bear: Vec<Face> = members.iter().map(|&k| faces[k]).collect();
+        // One that is as long as the radius would put the point behind the centre: the deepest alone is left there.
+        let out = shortest(&bear).map(|(u, most)| (u, u.norm(), most)).filter(|(_, q, _)| *q < radius);
+        let Some(&deepest) = members.first() else { continue };
+        let (way, most) =
+            out.map_or((near[order[deepest]].way, 0), |(u, q, most)| (u * ((q - radius) / q), most));
+        for (n, &k) in members.iter().enumerate() {
+            let point = &mut near[order[k]];
+            (point.way, point.counts) = (way, n == most);
+        }
     }
 }
 
