@@ -273,6 +273,32 @@ pub enum WallShape {
     Mesh(TriMesh),
 }
 
+/// One element of a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WallElement {
+    /// A wall sphere: centre [m], radius [m].
+    Sphere(Vec3, f64),
+    /// The whole plane.
+    Plane(Plane),
+    /// Corners of a triangle [m].
+    Triangle([Vec3; 3]),
+}
+
+impl WallShape {
+    /// Its elements in the order in which the engine counts them.
+    pub fn elements(&self) -> Vec<WallElement> {
+        match self {
+            WallShape::Spheres(spheres) => {
+                let order = crate::walls::order_of_spheres(spheres);
+                let of = |&k: &u32| spheres[k as usize];
+                order.iter().map(of).map(|(centre, radius)| WallElement::Sphere(centre, radius)).collect()
+            }
+            WallShape::Plane(plane) => vec![WallElement::Plane(*plane)],
+            WallShape::Mesh(mesh) => mesh.triangles().map(WallElement::Triangle).collect(),
+        }
+    }
+}
+
 /// When particles sleep ([`crate::passes::sleep`] says what that does).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Sleep {
