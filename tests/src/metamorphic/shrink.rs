@@ -52,6 +52,12 @@ fn candidates(scene: &Scene) -> Vec<Scene> {
         smaller.keys.remove(key);
         all.push(smaller);
     }
+    let named = scene.keys.to_string();
+    if scene.files.keys().any(|name| !named.contains(name.as_str())) {
+        let mut smaller = scene.clone();
+        smaller.files.retain(|name, _| named.contains(name.as_str()));
+        all.push(smaller);
+    }
     // Half of the rows, then one.
     for (name, file) in &scene.files {
         let File::Rows(_, rows) = file else { continue };
@@ -97,7 +103,8 @@ fn entries(scene: &Scene, key: &str, at: Option<usize>, all: &mut Vec<Scene>) {
     let value = scene.keys.get(key);
     let entry = value.and_then(|v| at.map_or(Some(v), |k| v.as_array()?.get(k)));
     let Some(Value::Table(table)) = entry else { return };
-    for name in table.keys() {
+    // Without its step a scene would have another one for each change.
+    for name in table.keys().filter(|name| key != "time" || !["dt", "until"].contains(&name.as_str())) {
         let mut smaller = scene.clone();
         let value = smaller.keys.get_mut(key);
         let entry = value.and_then(|v| match at {

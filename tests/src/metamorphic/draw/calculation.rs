@@ -19,6 +19,7 @@ impl Draw {
 
     fn top(&mut self) {
         let gravity = match self.pick(&[0, 1, 1, 2]) {
+            _ if self.choices.sleep => [0.0, 0.0, -9.81],
             _ if self.choices.strained => [0.0; 3],
             0 => [0.0; 3],
             1 => [0.0, 0.0, -9.81],
@@ -28,7 +29,7 @@ impl Draw {
             self.line(format!("gravity = {gravity:?}"));
         }
         self.maybe(0.1, "first_id = 100");
-        let precision = self.pick(&["f64", "f64", "f64", "f64", "f64", "mixed", "f32"]);
+        let precision = if self.choices.single { self.pick(&["f64", "mixed", "f32"]) } else { "f64" };
         self.maybe(0.7, format!("precision = \"{precision}\""));
     }
 
@@ -99,7 +100,7 @@ impl Draw {
     }
 
     fn guards(&mut self) {
-        self.line("[guards]\noverlap = 0.4\nenergy = 0.9");
+        self.line("[guards]\noverlap = 0.4\nenergy = 1e6");
         self.key(0.1, "motion", 0.3, 0.5);
         let zones = self.pick(&["true", "false", "\"remove\""]);
         self.maybe(0.05, format!("zones = {zones}"));
@@ -119,7 +120,7 @@ impl Draw {
             self.key(0.5, "wake", 0.05, 0.5);
             return;
         }
-        if self.chance(0.12) {
+        if !self.choices.plain && self.chance(0.15) {
             self.line("[local_damping]");
             self.key(0.7, "factor", 0.2, 0.8);
         }
@@ -134,7 +135,7 @@ impl Draw {
     }
 
     fn outlet(&mut self) {
-        if self.choices.periodic == [false; 3] && self.chance(0.08) {
+        if !self.choices.plain && self.choices.periodic == [false; 3] && self.chance(0.15) {
             let at = self.choices.low[2] - 0.002;
             let at = super::digits(at, 6);
             self.line(format!("[[outlet]]\nplane = [0.0, 0.0, {at:?}, 0.0, 0.0, -1.0]"));

@@ -193,7 +193,7 @@ impl Draw {
                 }
             }
         }
-        let line = self.pick(&["rate_count = 400.0", "rate = 0.15"]);
+        let line = self.pick(&["rate_count = 90.0", "rate = 0.02"]);
         self.line(line);
         let line = self.pick(&["count = 3", "mass = 0.003", ""]);
         self.line(line);
@@ -239,6 +239,7 @@ impl Draw {
 
     fn strengths(&mut self, kind: &str) {
         match self.pick(&[0, 1, 2, 3]) {
+            _ if self.choices.plain => return,
             0 => return,
             1 if kind == "contact" => {
                 self.key(1.0, "tensile_force", 0.5, 20.0);

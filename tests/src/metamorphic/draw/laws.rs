@@ -52,7 +52,8 @@ impl Draw {
     fn candidate(&mut self, between: [&str; 2]) -> Table {
         let mut law = Table::new();
         law.insert("between".to_owned(), between.map(str::to_owned).to_vec().into());
-        let of = |slot: Slot| DESCRIPTIONS.iter().copied().filter(move |d| d.slot == slot);
+        let single = self.choices.single;
+        let of = |slot: Slot| DESCRIPTIONS.iter().copied().filter(move |d| d.slot == slot && (d.every_precision || !single));
         let normal: Vec<_> = of(Slot::Normal).collect();
         let normal = self.pick(&normal);
         self.effect(&mut law, normal);

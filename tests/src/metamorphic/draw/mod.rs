@@ -21,6 +21,10 @@ pub const TIME: f64 = 0.01;
 struct Choices {
     /// Axes along which the domain repeats.
     periodic: [bool; 3],
+    /// Whether nothing is asked for that a small change can make another scene of.
+    plain: bool,
+    /// Whether all contacts are computed in every precision.
+    single: bool,
     /// Whether the domain is strained.
     strained: bool,
     /// Whether grains sleep.
@@ -53,7 +57,7 @@ const TRIES: usize = 40;
 /// The scene of a seed.
 ///
 /// # Panics
-/// When the draw writes a scene that is no TOML.
+/// When the draw writes a scene that is no TOML, or no folder can be made.
 pub fn scene(seed: u64) -> Scene {
     let mut last = Scene::default();
     for attempt in 0..TRIES as u64 {
@@ -62,7 +66,10 @@ pub fn scene(seed: u64) -> Scene {
         let keys = toml::from_str(&draw.text).unwrap_or_else(|e| panic!("{e}\n{}", draw.text));
         last = Scene { keys, files: draw.files };
         let text = last.keys.to_string();
-        if scene::Scene::new("scene.toml", text, &[], std::path::Path::new("")).is_ok() {
+        let folder = tempfile::tempdir().expect("a folder");
+        last.write(folder.path(), "scene.toml").expect("the folder can be written");
+        let checked = scene::Scene::new("scene.toml", text, &[], folder.path());
+        if checked.is_ok_and(|scene| scene.plan(Vec::new()).is_ok()) {
             break;
         }
     }
@@ -91,16 +98,17 @@ impl Draw {
 
     fn choose(&mut self) {
         let periodic = if self.chance(0.4) { [0; 3].map(|_| self.chance(0.6)) } else { [false; 3] };
-        let strained = self.chance(0.06);
-        let sleep = !strained && self.chance(0.08);
-        let clumps = !sleep && self.chance(0.25);
-        let bonded = !sleep && self.chance(0.25);
+        let (plain, single) = (self.chance(0.5), self.chance(0.2));
+        let strained = !plain && self.chance(0.1);
+        let sleep = !plain && !strained && self.chance(0.15);
+        let clumps = !sleep && self.chance(0.2);
+        let bonded = !sleep && self.chance(0.2);
         let low = if self.chance(0.3) { [0.0; 3] } else { [0; 3].map(|_| self.between(-0.05, 0.05)) };
         let periodic = if strained { [true; 3] } else { periodic };
         let cells = periodic.map(|p| if p { 3 } else { 2 } + usize::from(self.chance(0.4)));
         let dense = self.chance(0.35);
-        let inserted = !strained && !periodic[2] && self.chance(0.12);
-        self.choices = Choices { periodic, strained, sleep, bonded, clumps, dense, inserted, cells, low };
+        let inserted = !plain && !strained && !periodic[2] && self.chance(0.2);
+        self.choices = Choices { plain, single, periodic, strained, sleep, bonded, clumps, dense, inserted, cells, low };
     }
 
     /// Highest corner of the grid [m].

@@ -51,7 +51,7 @@ pub static RELATIONS: &[Relation] = &[
     bits("resumed, `--whole`", output::whole),
     bits("names", words::names),
     bits("numbers with units", words::units),
-    bits("order of materials", words::materials),
+    rounding("order of materials", words::materials),
     bits("order of particles", words::particles),
     rounding("order of walls", words::walls),
     bits("order of triangles", words::triangles),
@@ -59,7 +59,7 @@ pub static RELATIONS: &[Relation] = &[
     bits("unused materials", words::unused_materials),
     bits("walls far away", words::far_walls),
     bits("similarity", space::similarity),
-    bits("mirror", space::mirror),
+    rounding("mirror", space::mirror),
     rounding("axes exchanged", space::permuted),
     rounding("shift", space::shifted),
     rounding("shift of a periodic cell", space::rolled),
@@ -94,6 +94,8 @@ fn is_drawn(scene: &Scene) -> bool {
 /// Whether a small change can grow at once: sleep, breaking bonds, signs of velocities.
 fn jumps(scene: &Scene) -> bool {
     scene.has(&["sleep", "local_damping", "outlet"])
+        || scene.get("domain.strain").is_some()
+        || scene.list("wall").any(|w| w.contains_key("servo"))
         || scene.has_in_contacts(&["constant", "jkr"])
         || scene.list("bond").any(|b| b.keys().any(|key| key.contains("strength") || key.contains("_force")))
 }
