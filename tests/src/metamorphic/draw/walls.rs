@@ -80,7 +80,8 @@ impl Draw {
     }
 
     fn boxes(&mut self, faces: &[Face], low: [f64; 3], high: [f64; 3]) {
-        let (mut low, mut high) = (low.map(|x| digits(x - 0.02, 9)), high.map(|x| digits(x + 0.02, 9)));
+        let beyond = self.pick(&[0.02, 0.0, -0.003]);
+        let (mut low, mut high) = (low.map(|x| digits(x - beyond, 9)), high.map(|x| digits(x + beyond, 9)));
         // Faces that repeat end where their image begins.
         for k in (0..3).filter(|k| self.choices.periodic[*k]) {
             (low[k], high[k]) = (self.choices.low[k], self.high()[k]);

@@ -1,5 +1,6 @@
 //! What must not change.
 
+mod contacts;
 mod laws;
 mod output;
 mod space;
@@ -54,7 +55,7 @@ pub static RELATIONS: &[Relation] = &[
     rounding("order of materials", words::materials),
     bits("order of particles", words::particles),
     rounding("order of walls", words::walls),
-    bits("order of triangles", words::triangles),
+    rounding("order of triangles", words::triangles),
     bits("effects of coefficient 0", words::idle_effects),
     bits("unused materials", words::unused_materials),
     bits("walls far away", words::far_walls),
@@ -66,7 +67,7 @@ pub static RELATIONS: &[Relation] = &[
     rounding("rotation", space::rotated),
     rounding("moving frame", space::boosted),
     rounding("doubled periodic cell", space::doubled),
-    bits("two runs in a row", starts::unchanged),
+    Relation { name: "two runs in a row", exact: "order of the step", question: starts::unchanged },
     rounding("two runs in a row, walls in other words", starts::reworded),
     rounding("plane = mesh", walls::plane_as_mesh),
     rounding("plane = face of a box", walls::plane_as_box),
@@ -74,6 +75,8 @@ pub static RELATIONS: &[Relation] = &[
     rounding("finer triangles", walls::finer),
     rounding("belt = moving wall", walls::belt),
     rounding("hooke = walton_braun of restitution 1", laws::elastic_laws),
+    rounding("loading of walton_braun = hooke", contacts::loading),
+    rounding("energy of a grain on a seam", contacts::seam),
     rounding("momentum", laws::momentum_question),
     rounding("time reversal", laws::reversal),
     rounding("ledger", laws::ledger),

@@ -1,5 +1,6 @@
 //! How a run is computed and written does not change what happens.
 
+use crate::metamorphic::answer::{Answer, Rows};
 use crate::metamorphic::campaign::{Case, Verdict, refused, time};
 use crate::metamorphic::compare::{PARTICLES, Rule, WHOLE};
 use rand::RngExt;
@@ -70,9 +71,28 @@ fn interrupted(case: &Case, random: &mut Pcg64Mcg, more: &[&str]) -> Option<Verd
     arguments.extend(more);
     match case.runner.call(&folder, &arguments) {
         Err(refusal) => Some(Verdict::Differs(format!("a run that was interrupted at step {step} cannot be resumed: {}", refusal.words))),
-        Ok(other) => {
+        Ok(mut other) => {
+            // The frame at the interruption is left out, and its cracks come in a message of their own.
+            let mut base = case.base.clone();
+            [&mut base, &mut other].into_iter().for_each(gather_cracks);
             let topics = if more.is_empty() { PARTICLES } else { WHOLE };
-            Some(case.judge(&case.base, &other, &Rule::bits(topics)))
+            Some(case.judge(&base, &other, &Rule::bits(topics)))
         }
+    }
+}
+
+/// All cracks in the last frame.
+fn gather_cracks(answer: &mut Answer) {
+    let mut all: Option<Rows> = None;
+    for frame in answer.frames.values_mut() {
+        if let Some(rows) = frame.remove(topic::CRACKS) {
+            match &mut all {
+                Some(all) => all.rows.extend(rows.rows),
+                None => all = Some(rows),
+            }
+        }
+    }
+    if let (Some(all), Some(mut last)) = (all, answer.frames.last_entry()) {
+        last.get_mut().insert(topic::CRACKS.to_owned(), all);
     }
 }

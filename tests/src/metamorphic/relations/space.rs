@@ -2,7 +2,7 @@
 
 use super::{is_drawn, is_placed, jumps};
 use crate::metamorphic::campaign::{Case, Verdict, refused};
-use crate::metamorphic::compare::{ALL, Rule, Tolerance};
+use crate::metamorphic::compare::{ALL, Rule};
 use crate::metamorphic::scene::{File, Scene, numbers};
 use crate::metamorphic::transform::{Transform, array};
 use rand::RngExt;
@@ -112,8 +112,22 @@ fn periods(scene: &Scene) -> Vec<(usize, f64, f64)> {
 pub fn rolled(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let scene = &case.scene;
     let periods = periods(scene);
-    let ends = scene.list("wall").any(|w| w.contains_key("mesh") || w.contains_key("solid") || w.contains_key("box"));
-    if periods.is_empty() || !is_placed(scene) || jumps(scene) || ends || scene.get("domain.strain").is_some() {
+    let turns = |m: &Table| ["rotate", "swing"].iter().any(|key| m.contains_key(*key));
+    let moves = |w: &Table| match w.get("motion") {
+        Some(Value::Table(one)) => turns(one),
+        Some(Value::Array(list)) => list.iter().filter_map(Value::as_table).any(turns),
+        _ => false,
+    };
+    // Walls that are the same everywhere along the axes: planes and faces of boxes that end where their image begins.
+    let alike = |w: &Table| (w.contains_key("plane") || w.contains_key("box")) && !w.contains_key("surface_rotation") && !moves(w);
+    let fixed = |p: &Table| p.get("fixed").and_then(Value::as_bool).unwrap_or(false);
+    if periods.is_empty()
+        || !is_placed(scene)
+        || jumps(scene)
+        || !scene.list("wall").all(alike)
+        || scene.list("particles").any(fixed)
+        || scene.get("domain.strain").is_some()
+    {
         return None;
     }
     let mut shift = [0.0; 3];
@@ -122,8 +136,10 @@ pub fn rolled(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     }
     let transform = Transform { shift, ..Transform::default() };
     let mut other = transform.scene(scene);
-    if let (Some(old), Some(Value::Table(domain))) = (scene.keys.get("domain"), other.keys.get_mut("domain")) {
-        *domain = old.as_table()?.clone();
+    for table in ["domain", "wall"] {
+        if let Some(old) = scene.keys.get(table) {
+            other.keys.insert(table.to_owned(), old.clone());
+        }
     }
     wrap(&mut other, &periods);
     let mut rolled = match case.run(&other, &[]) {
@@ -143,14 +159,9 @@ pub fn rolled(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
             }
         }
     }
-    let rule = Rule { tolerance: case.rounding(1e-9), ..Rule::bits(MOVED) };
-    Some(case.judge(&base, &rolled, &loosened(rule)))
-}
-
-/// Sines of places have another size than places.
-fn loosened(rule: Rule) -> Rule {
-    let topics: &[&str] = &[topic::PARTICLES, topic::BONDS, topic::WALL_FORCES];
-    Rule { topics, ..rule }
+    let topics = &[topic::PARTICLES, topic::BONDS, topic::WALL_FORCES];
+    let rule = Rule { tolerance: case.rounding(1e-9), ..Rule::bits(topics) };
+    Some(case.judge(&base, &rolled, &rule))
 }
 
 fn wrap(scene: &mut Scene, periods: &[(usize, f64, f64)]) {
@@ -274,9 +285,6 @@ pub fn doubled(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
             rows.rows.iter_mut().for_each(|row| row[x + axis] = (std::f64::consts::TAU * (row[x + axis] - low) / period).sin());
         }
     }
-    let tolerance = match case.rounding(1e-9) {
-        Tolerance::Rounding(noise, share) => Tolerance::Rounding(noise, share),
-        bits => bits,
-    };
+    let tolerance = case.rounding(1e-9);
     Some(case.judge(&base, &answer, &Rule { tolerance, ..Rule::bits(&[topic::PARTICLES]) }))
 }
