@@ -31,7 +31,9 @@ pub struct Case<'a> {
     pub base: Answer,
     /// Runs scenes.
     pub runner: &'a Runner,
-    folder: TempDir,
+    folder: PathBuf,
+    /// Removes the folder.
+    _owner: Option<TempDir>,
     runs: Cell<usize>,
     noise: OnceCell<Deviations>,
 }
@@ -71,15 +73,25 @@ impl<'a> Case<'a> {
     /// # Panics
     /// When no folder can be made.
     pub fn pinned(runner: &'a Runner, scene: Scene) -> Result<Case<'a>, Refusal> {
-        let folder = tempfile::tempdir().expect("a folder");
-        let base = runner.run(&folder.path().join("first"), &scene, &[])?;
-        Ok(Case { scene, base, runner, folder, runs: Cell::new(0), noise: OnceCell::new() })
+        let owner = tempfile::tempdir().expect("a folder");
+        let folder = owner.path().to_owned();
+        let case = Case::in_folder(runner, scene, folder)?;
+        Ok(Case { _owner: Some(owner), ..case })
+    }
+
+    /// The same; what it runs stays in this folder.
+    ///
+    /// # Errors
+    /// As [`Case::pinned`].
+    pub fn in_folder(runner: &'a Runner, scene: Scene, folder: PathBuf) -> Result<Case<'a>, Refusal> {
+        let base = runner.run(&folder.join("first"), &scene, &[])?;
+        Ok(Case { scene, base, runner, folder, _owner: None, runs: Cell::new(0), noise: OnceCell::new() })
     }
 
     /// A folder for another run.
     pub fn folder(&self) -> PathBuf {
         self.runs.set(self.runs.get() + 1);
-        self.folder.path().join(format!("second-{}", self.runs.get()))
+        self.folder.join(format!("second-{}", self.runs.get()))
     }
 
     /// Number of its steps.
@@ -133,11 +145,6 @@ impl<'a> Case<'a> {
             all
         })
     }
-
-    /// Where the runs of this scene lie.
-    pub fn path(&self) -> &std::path::Path {
-        self.folder.path()
-    }
 }
 
 /// The verdict of a refusal.
@@ -166,6 +173,9 @@ fn disturbed(scene: &Scene, seed: u64, size: f64) -> Scene {
     }
     scene
 }
+
+/// The relation of the step that the program chose and the same as a number.
+pub const AUTO: &str = "`dt = \"auto\"` as a number";
 
 /// Counts of one relation.
 #[derive(Debug, Clone, Copy, Default)]
@@ -244,8 +254,15 @@ pub fn ask(runner: &Runner, seed: u64, chosen: &dyn Fn(&Relation) -> bool) -> Fi
             return found;
         }
     };
+    let auto = found.counts.entry(AUTO).or_default();
+    auto.compared += 1;
+    if let Some(words) = compare::difference(&case.base, &free, &Rule::bits(compare::WHOLE)) {
+        auto.differ += 1;
+        let relation = &super::relations::AUTOMATIC;
+        found.failures.push(Failure { seed, relation, words, scene: case.scene.clone() });
+    }
     for relation in RELATIONS.iter().filter(|r| chosen(r)) {
-        let verdict = match relation.asks(&case, &free, &mut random(seed, relation.name)) {
+        let verdict = match relation.asks(&case, &mut random(seed, relation.name)) {
             None => continue,
             Some(verdict) => verdict,
         };

@@ -39,6 +39,22 @@ impl File {
         }
     }
 
+    fn parse(text: &str) -> Option<File> {
+        if !text.starts_with("ply") {
+            let mut lines = text.lines();
+            let columns = lines.next()?.split(',').map(str::to_owned).collect();
+            let row = |line: &str| line.split(',').map(|x| x.parse().ok()).collect();
+            return Some(File::Rows(columns, lines.map(row).collect::<Option<_>>()?));
+        }
+        let (head, body) = text.split_once("end_header\n")?;
+        let vertices: usize = head.lines().find_map(|l| l.strip_prefix("element vertex "))?.parse().ok()?;
+        let numbers = |line: &str| line.split(' ').map(|x| x.parse().ok()).collect::<Option<Vec<f64>>>();
+        let points = body.lines().take(vertices).map(|l| numbers(l)?.try_into().ok());
+        let triangle = |l: &str| <[f64; 3]>::try_from(numbers(l)?.get(1..)?).ok().map(|t| t.map(|k| k as usize));
+        let triangles = body.lines().skip(vertices).map(triangle);
+        Some(File::Mesh(points.collect::<Option<_>>()?, triangles.collect::<Option<_>>()?))
+    }
+
     /// The column of this name.
     pub fn column(&self, name: &str) -> Option<usize> {
         match self {
@@ -66,6 +82,27 @@ impl Scene {
         std::fs::create_dir_all(folder)?;
         std::fs::write(folder.join(name), self.keys.to_string())?;
         self.files.iter().try_for_each(|(name, file)| std::fs::write(folder.join(name), file.text()))
+    }
+
+    /// Reads what [`Scene::write`] wrote.
+    ///
+    /// # Errors
+    /// Of the disk, and what is no such scene.
+    pub fn read(folder: &Path, name: &str) -> io::Result<Scene> {
+        let wrong = |e: String| io::Error::new(io::ErrorKind::InvalidData, e);
+        let keys = toml::from_str(&std::fs::read_to_string(folder.join(name))?).map_err(|e| wrong(e.to_string()))?;
+        let mut files = BTreeMap::new();
+        for entry in std::fs::read_dir(folder)? {
+            let path = entry?.path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let end = path.extension().unwrap_or_default();
+            if end == "csv" || end == "ply" {
+                let text = std::fs::read_to_string(&path)?;
+                let file = File::parse(&text).ok_or_else(|| wrong(format!("{name} is none of this program's files")))?;
+                files.insert(name, file);
+            }
+        }
+        Ok(Scene { keys, files })
     }
 
     /// The entries of a list of tables.

@@ -11,8 +11,7 @@ const TRIES: usize = 250;
 /// The words of the difference, if the scene fails the relation.
 fn fails(runner: &Runner, scene: &Scene, failure: &Failure) -> Option<String> {
     let case = Case::pinned(runner, scene.clone()).ok()?;
-    let base = case.base.clone();
-    match failure.relation.asks(&case, &base, &mut random(failure.seed, failure.relation.name)) {
+    match failure.relation.asks(&case, &mut random(failure.seed, failure.relation.name)) {
         Some(Verdict::Differs(words)) => Some(words),
         _ => None,
     }

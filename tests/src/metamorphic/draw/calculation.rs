@@ -114,7 +114,7 @@ impl Draw {
 
     fn surroundings(&mut self) {
         if self.choices.sleep {
-            let speed = self.scale(0.01, 0.3);
+            let speed = self.scale(0.003, 0.04);
             self.line(format!("[sleep]\nspeed = {speed:?}"));
             self.key(0.9, "time", 5e-4, 3e-3);
             self.key(0.5, "wake", 0.05, 0.5);
@@ -143,7 +143,7 @@ impl Draw {
             let motion = self.pick(&["constant", "ballistic", "recorded"]);
             self.maybe(0.7, format!("motion = \"{motion}\""));
             if motion == "recorded" {
-                self.maybe(0.5, "samples = 1e-3");
+                self.maybe(0.5, "samples = 2e-4");
             }
             let test = self.pick(&["centre", "lowest"]);
             self.maybe(0.5, format!("test = \"{test}\""));

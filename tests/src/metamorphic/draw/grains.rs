@@ -204,8 +204,8 @@ impl Draw {
 
     fn bonds(&mut self) {
         let kind = self.pick(&["beam", "parallel", "contact"]);
-        let clusters = self.pick(&["any", "any", "any", "same", "different"]);
-        self.line(format!("[[bond]]\nbetween = [\"a\", \"a\"]\nclusters = \"{clusters}\"\ngap = 0.002"));
+        let clusters = self.pick(&["any", "any", "any", "any", "any", "same", "different"]);
+        self.line(format!("[[bond]]\nbetween = [\"a\", \"a\"]\nclusters = \"{clusters}\"\ngap = 0.0018"));
         self.maybe(if kind == "beam" { 0.5 } else { 1.0 }, format!("kind = \"{kind}\""));
         match (kind, self.chance(0.5)) {
             ("beam", _) => {

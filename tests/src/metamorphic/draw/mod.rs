@@ -97,7 +97,7 @@ impl Draw {
     }
 
     fn choose(&mut self) {
-        let periodic = if self.chance(0.4) { [0; 3].map(|_| self.chance(0.6)) } else { [false; 3] };
+        let periodic = if self.chance(0.45) { [0; 3].map(|_| self.chance(0.6)) } else { [false; 3] };
         let (plain, single) = (self.chance(0.5), self.chance(0.2));
         let strained = !plain && self.chance(0.1);
         let sleep = !plain && !strained && self.chance(0.15);
@@ -105,6 +105,8 @@ impl Draw {
         let bonded = !sleep && self.chance(0.2);
         let low = if self.chance(0.3) { [0.0; 3] } else { [0; 3].map(|_| self.between(-0.05, 0.05)) };
         let periodic = if strained { [true; 3] } else { periodic };
+        // A scene without walls is one of few.
+        let periodic = if plain && periodic == [true; 3] { [true, false, true] } else { periodic };
         let cells = periodic.map(|p| if p { 3 } else { 2 } + usize::from(self.chance(0.4)));
         let dense = self.chance(0.35);
         let inserted = !plain && !strained && !periodic[2] && self.chance(0.2);

@@ -36,14 +36,15 @@ impl Draw {
         for axis in (0..3).filter(|k| !periodic[*k]) {
             for upper in [false, true] {
                 let above = self.choices.inserted && axis == 2 && upper;
-                if above || !self.chance(if upper { 0.35 } else { 0.7 }) {
+                let often = self.choices.plain && periodic != [false; 3];
+                if above || !self.chance(if upper { 0.35 } else if often { 0.95 } else { 0.7 }) {
                     continue;
                 }
                 // A face that cuts into the outermost grains would push them at once: it lies at theirs or a little outside.
                 let away = if self.chance(0.5) { 0.0 } else { self.between(0.0, 5e-4) };
                 let at = if upper { high[axis] + away } else { low[axis] - away };
                 let face = Face { axis, upper, at: digits(at, 9) };
-                match self.pick(&[0, 1, 2, 2, 2, 3, 4, 5]) {
+                match if often { self.pick(&[0, 0, 0, 1, 2]) } else { self.pick(&[0, 1, 2, 2, 2, 3, 4, 5]) } {
                     0 => self.plane(face),
                     1 => boxed.push(face),
                     2 => self.mesh(face),
@@ -71,16 +72,16 @@ impl Draw {
         let mut point = [0.0; 3];
         point[face.axis] = face.at;
         self.head(&format!("plane = {:?}", [point, face.inward(1.0)].concat()));
-        match self.pick(&[0, 1, 2, 3, 4]) {
+        match self.pick(&[0, 1, 2, 3, 4, 5, 6]) {
             0 => self.motion(face, true),
-            1 => self.belt(face),
-            2 => self.mount(face),
+            1 | 2 => self.belt(face),
+            3 => self.mount(face),
             _ => {}
         }
     }
 
     fn boxes(&mut self, faces: &[Face], low: [f64; 3], high: [f64; 3]) {
-        let beyond = self.pick(&[0.02, 0.0, -0.003]);
+        let beyond = self.pick(&[0.02, 0.0, -0.006]);
         let (mut low, mut high) = (low.map(|x| digits(x - beyond, 9)), high.map(|x| digits(x + beyond, 9)));
         // Faces that repeat end where their image begins.
         for k in (0..3).filter(|k| self.choices.periodic[*k]) {
@@ -112,15 +113,15 @@ impl Draw {
     fn mesh(&mut self, face: Face) {
         let [u, v] = self.corners(face, 0.5 * CELL);
         let cells = self.pick(&[1, 1, 2, 3, 4]);
-        // A seam along the first axis, a little below or above the plane.
-        let fold = if cells % 2 == 0 && self.chance(0.5) { self.between(-3e-4, 3e-4) } else { 0.0 };
+        // A seam across the first axis behind the plane: a shallow valley.
+        let fold = if cells % 2 == 0 && self.chance(0.5) { self.between(0.0, 0.004) } else { 0.0 };
         let inward = face.inward(1.0)[face.axis];
         let mut vertices = Vec::new();
         for j in 0..=cells {
             for i in 0..=cells {
                 let part = |[low, high]: [f64; 2], k: usize| low + (high - low) * k as f64 / cells as f64;
                 let mut p = [0.0; 3];
-                p[face.axis] = face.at + if i * 2 == cells { fold - fold.abs() } else { 0.0 } * inward;
+                p[face.axis] = face.at + if i * 2 == cells { -fold * inward } else { 0.0 };
                 p[(face.axis + 1) % 3] = part(u, i);
                 p[(face.axis + 2) % 3] = part(v, j);
                 vertices.push(p.map(|x| digits(x, 9)));

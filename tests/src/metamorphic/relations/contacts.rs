@@ -136,22 +136,25 @@ pub fn seam(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let normal = normal.map(|x| side * x);
     let across = unit(cross(normal, minus(b, a)));
     let part = random.random_range(0.4..0.6);
-    let (into, along) = (random.random_range(0.1..0.4), random.random_range(-0.6..0.6));
-    // Contact lasts about a millisecond: the grain is over the seam in the middle of it.
-    let early = 0.9e-3 + 2e-5 / into;
+    let (into, along) = (random.random_range(0.1..0.5), random.random_range(-0.6..0.6));
+    let stiffness = 10f64.powf(random.random_range(2.5..4.0));
+    let density = case.scene.list("material").find_map(|m| m.get("density").and_then(number))?;
+    let mass = density * 4.0 / 3.0 * std::f64::consts::PI * RADIUS.powi(3);
+    let lasts = std::f64::consts::PI * (mass / stiffness).sqrt();
+    // The grain is over the seam at some time of its contact.
+    let early = 2e-5 / into + lasts * random.random_range(0.2..0.8);
     let place = [0, 1, 2].map(|k| {
-        a[k] + part * (b[k] - a[k]) + (RADIUS + 1e-5) * normal[k] - early * 0.5 * along * across[k]
+        a[k] + part * (b[k] - a[k]) + (RADIUS + 2e-5) * normal[k] - early * along * across[k]
     });
     let velocity = [0, 1, 2].map(|k| along * across[k] - into * normal[k]);
     let row = [&place[..], &velocity[..], &[RADIUS][..]].concat();
-    let stiffness = random.random_range(5e3..2e4);
     let elastic = law(&[("law", "hooke".into()), ("stiffness", stiffness.into()), ("restitution", 1.0.into())]);
     let mut scene = small(case, vec![row], elastic)?;
     scene.files.insert(name.to_owned(), File::Mesh(vertices.clone(), triangles.clone()));
     scene.push("wall", wall.clone());
-    scene.set("time", "dt", 2e-6);
-    scene.set("time", "until", 4e-3);
-    scene.set("output", "every", 1e-4);
+    scene.set("time", "dt", digits(lasts / 1000.0, 4));
+    scene.set("time", "until", digits(2.5 * lasts, 4));
+    scene.set("output", "every", digits(lasts / 20.0, 4));
     let answer = match case.run(&scene, &[]) {
         Ok(answer) => answer,
         Err(refusal) => return Some(refused(&refusal)),

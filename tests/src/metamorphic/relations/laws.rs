@@ -195,6 +195,15 @@ fn reversed(scene: &Scene, columns: &[String], rows: &[Vec<f64>]) -> Option<Scen
 
 /// The sum of all terms of the ledger stays.
 pub fn ledger(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
+    (!case.scene.has(&["clump"])).then(|| balance(case)).flatten()
+}
+
+/// The same with clumps.
+pub fn ledger_of_clumps(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
+    case.scene.has(&["clump"]).then(|| balance(case)).flatten()
+}
+
+fn balance(case: &Case) -> Option<Verdict> {
     let of = |frame: &Frame, name: &str| {
         let rows = frame.get(topic::ENERGY)?;
         Some(rows.rows[rows.names.iter().position(|n| n == name)?][0])

@@ -8,7 +8,6 @@ mod starts;
 mod walls;
 mod words;
 
-use super::answer::Answer;
 use super::campaign::{Case, Verdict};
 use super::scene::Scene;
 use rand_pcg::Pcg64Mcg;
@@ -28,7 +27,7 @@ pub struct Relation {
 
 impl Relation {
     /// Asks.
-    pub fn asks(&self, case: &Case, _free: &Answer, random: &mut Pcg64Mcg) -> Option<Verdict> {
+    pub fn asks(&self, case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
         (self.question)(case, random)
     }
 }
@@ -40,6 +39,9 @@ const fn bits(name: &'static str, question: Question) -> Relation {
 const fn rounding(name: &'static str, question: Question) -> Relation {
     Relation { name, exact: "rounding", question }
 }
+
+/// The step that the program chose, given as a number. Each scene is asked this as it is drawn.
+pub static AUTOMATIC: Relation = bits(super::campaign::AUTO, |_, _| None);
 
 /// Every relation.
 pub static RELATIONS: &[Relation] = &[
@@ -68,6 +70,7 @@ pub static RELATIONS: &[Relation] = &[
     rounding("moving frame", space::boosted),
     rounding("doubled periodic cell", space::doubled),
     Relation { name: "two runs in a row", exact: "order of the step", question: starts::unchanged },
+    Relation { name: "two runs in a row on fixed grains", exact: "order of the step", question: starts::on_fixed },
     rounding("two runs in a row, walls in other words", starts::reworded),
     rounding("plane = mesh", walls::plane_as_mesh),
     rounding("plane = face of a box", walls::plane_as_box),
@@ -80,6 +83,7 @@ pub static RELATIONS: &[Relation] = &[
     rounding("momentum", laws::momentum_question),
     rounding("time reversal", laws::reversal),
     rounding("ledger", laws::ledger),
+    rounding("ledger of clumps", laws::ledger_of_clumps),
     Relation { name: "energy of elastic contacts", exact: "order of the step", question: laws::elastic_energy },
     Relation { name: "halved step", exact: "order of the step", question: laws::halved },
 ];

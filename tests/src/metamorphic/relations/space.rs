@@ -130,9 +130,13 @@ pub fn rolled(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     {
         return None;
     }
+    // One of the grains crosses a face soon.
+    let grain = first_states(scene).and_then(|rows| rows.get(random.random_range(0..rows.len().max(1))).cloned());
     let mut shift = [0.0; 3];
-    for (axis, _, period) in &periods {
-        shift[*axis] = period * random.random_range(0.05..0.95);
+    for (axis, low, period) in &periods {
+        let Some(grain) = &grain else { continue };
+        let to = low + if grain[3 + axis] > 0.0 { period - CLOSE } else { CLOSE };
+        shift[*axis] = (to - grain[*axis]).rem_euclid(*period);
     }
     let transform = Transform { shift, ..Transform::default() };
     let mut other = transform.scene(scene);
@@ -162,6 +166,17 @@ pub fn rolled(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let topics = &[topic::PARTICLES, topic::BONDS, topic::WALL_FORCES];
     let rule = Rule { tolerance: case.rounding(1e-9), ..Rule::bits(topics) };
     Some(case.judge(&base, &rolled, &rule))
+}
+
+/// How far a grain is from the face that it is about to cross [m].
+const CLOSE: f64 = 2e-4;
+
+/// Places and velocities of a file of grains.
+fn first_states(scene: &Scene) -> Option<&Vec<Vec<f64>>> {
+    scene.files.iter().find_map(|(name, file)| match file {
+        File::Rows(_, rows) if name.starts_with("grains") || name.starts_with("clumps") => Some(rows),
+        _ => None,
+    })
 }
 
 fn wrap(scene: &mut Scene, periods: &[(usize, f64, f64)]) {
