@@ -92,14 +92,7 @@ impl Touch {
     /// g of two spheres.
     #[inline(always)]
     fn coupling(&self, other: &Touch) -> f64 {
-        let g = 3.0 * self.cosine(other) - 0.5;
-        if g < 0.0 {
-            0.0
-        } else if g > 1.0 {
-            1.0
-        } else {
-            g
-        }
+        (3.0 * self.cosine(other) - 0.5).clamp(0.0, 1.0)
     }
 
     /// Cosine of the angle at which a grain touches both at once.

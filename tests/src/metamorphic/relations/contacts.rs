@@ -75,7 +75,11 @@ pub fn loading(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     match (case.run(&one, &[]), case.run(&other, &[])) {
         (Ok(one), Ok(other)) => {
             let none = BTreeMap::new();
-            Some(case.judge(&one, &other, &Rule { tolerance: Tolerance::Rounding(&none, 1e-9), ..Rule::bits(PARTICLES) }))
+            Some(case.judge(
+                &one,
+                &other,
+                &Rule { tolerance: Tolerance::Rounding(&none, 1e-9), ..Rule::bits(PARTICLES) },
+            ))
         }
         (Err(refusal), _) | (_, Err(refusal)) => Some(refused(&refusal)),
     }
@@ -118,8 +122,13 @@ const SEAM: f64 = 2e-3;
 
 /// A grain without friction that moves over the seam of two triangles keeps its energy.
 pub fn seam(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
-    let plain = |w: &&Table| !["motion", "servo", "spring", "surface_velocity", "surface_rotation"].iter().any(|k| w.contains_key(*k));
-    let walls: Vec<&Table> = case.scene.list("wall").filter(plain).filter(|w| w.contains_key("mesh")).collect();
+    let plain = |w: &&Table| {
+        !["motion", "servo", "spring", "surface_velocity", "surface_rotation"]
+            .iter()
+            .any(|k| w.contains_key(*k))
+    };
+    let walls: Vec<&Table> =
+        case.scene.list("wall").filter(plain).filter(|w| w.contains_key("mesh")).collect();
     let wall = *walls.get(random.random_range(0..walls.len().max(1)))?;
     let name = wall.get("mesh")?.as_str()?;
     let File::Mesh(vertices, triangles) = case.scene.files.get(name)? else { return None };
@@ -130,7 +139,8 @@ pub fn seam(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     // The side on which the grains of the scene are.
     let rows = case.base.frames.values().next()?.get(topic::PARTICLES)?;
     let x = rows.columns.iter().position(|c| c == "x")?;
-    let centre = [0, 1, 2].map(|k| rows.rows.iter().map(|r| r[x + k]).sum::<f64>() / rows.rows.len().max(1) as f64);
+    let centre =
+        [0, 1, 2].map(|k| rows.rows.iter().map(|r| r[x + k]).sum::<f64>() / rows.rows.len().max(1) as f64);
     let normal = unit([0, 1, 2].map(|k| n1[k] + n2[k]));
     let side = if dot(minus(centre, a), normal) < 0.0 { -1.0 } else { 1.0 };
     let normal = normal.map(|x| side * x);
@@ -143,12 +153,12 @@ pub fn seam(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let lasts = std::f64::consts::PI * (mass / stiffness).sqrt();
     // The grain is over the seam at some time of its contact.
     let early = 2e-5 / into + lasts * random.random_range(0.2..0.8);
-    let place = [0, 1, 2].map(|k| {
-        a[k] + part * (b[k] - a[k]) + (RADIUS + 2e-5) * normal[k] - early * along * across[k]
-    });
+    let place = [0, 1, 2]
+        .map(|k| a[k] + part * (b[k] - a[k]) + (RADIUS + 2e-5) * normal[k] - early * along * across[k]);
     let velocity = [0, 1, 2].map(|k| along * across[k] - into * normal[k]);
     let row = [&place[..], &velocity[..], &[RADIUS][..]].concat();
-    let elastic = law(&[("law", "hooke".into()), ("stiffness", stiffness.into()), ("restitution", 1.0.into())]);
+    let elastic =
+        law(&[("law", "hooke".into()), ("stiffness", stiffness.into()), ("restitution", 1.0.into())]);
     let mut scene = small(case, vec![row], elastic)?;
     scene.files.insert(name.to_owned(), File::Mesh(vertices.clone(), triangles.clone()));
     scene.push("wall", wall.clone());
@@ -162,7 +172,9 @@ pub fn seam(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let made = made(&answer)?;
     let at = array(&[&place[..], &velocity[..]].concat());
     Some(match made > SEAM {
-        true => Verdict::Differs(format!("{made:e} of the energy is made or lost by a grain of {RADIUS} m at {at}")),
+        true => Verdict::Differs(format!(
+            "{made:e} of the energy is made or lost by a grain of {RADIUS} m at {at}"
+        )),
         false => Verdict::Same,
     })
 }
