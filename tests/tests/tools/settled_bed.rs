@@ -75,7 +75,7 @@ fn particles(rest: &str) -> String {
 
 /// A bed that has come to rest in the bin, on a ball and on grains that are fixed, between planes with and without names.
 fn settled() -> TempDir {
-    let fill = "[[fill]]\nmaterial = \"grit\"\nshape = \"box:0.002,0.002,0.012,0.028,0.028,0.09\"\ndiameter = [0.005, 0.006]\ncount = 110\n";
+    let fill = "[[fill]]\nmaterial = \"grit\"\nshape = \"box:0.002,0.006,0.012,0.028,0.024,0.09\"\ndiameter = [0.005, 0.006]\ncount = 110\n";
     let walls = [
         wall("bin", "mesh = \"bin.obj\""),
         wall("", "solid = \"sphere:0.01,0.015,0.002,0.005\""),

@@ -32,7 +32,7 @@ pub const STIFFNESS: Key = Key {
     range: Range::Positive,
     required: true,
     example: "1e5",
-    doc: "k_n; instead `characteristic_velocity` [m/s]: the speed at which two of the largest grains store as much as with \"hertz\" (default 1)",
+    doc: "k_n; instead `characteristic_velocity` [m/s]: the speed at which two of the largest grains store as much as with \"hertz\"",
 };
 /// k_t/k of linear laws.
 pub const TANGENTIAL_RATIO: Key = Key {
