@@ -64,14 +64,14 @@ impl ContactEffect for ConstantRolling {
     }
 }
 
-/// A torque or a direction, and its size.
+/// A torque or a velocity, and its size.
 #[derive(Clone, Copy)]
-struct Sized<R: Lane>(V<R>, R);
+struct Arrow<R: Lane>(V<R>, R);
 
-impl<R: Lane> Sized<R> {
+impl<R: Lane> Arrow<R> {
     #[inline(always)]
-    fn of(v: V<R>) -> Sized<R> {
-        Sized(v, v.dot(v).sqrt())
+    fn of(v: V<R>) -> Arrow<R> {
+        Arrow(v, v.dot(v).sqrt())
     }
 
     /// Its direction; zero where it has none.
@@ -101,7 +101,7 @@ impl Effect for ConstantRolling {
         let turns = n.cross(response.tangential).scale(number(0.0) - contact.lever * share);
         let last = turned(*rolled, contact);
         let length = last.dot(last);
-        let now = Sized::of(rolling).direction();
+        let now = Arrow::of(rolling).direction();
         let fresh = number(0.25 * STUCK * STUCK).gt(length);
         let stuck = R::both(length.gt(number(0.0)), number(0.5).gt(length));
 
@@ -113,14 +113,14 @@ impl Effect for ConstantRolling {
         let ever = R::select(left.gt(number(0.0)), number(1.0), number(0.0));
         let part = R::select(slows.gt(number(0.0)), part, ever);
         let rolls = part.gt(number(1.0 - 1e-9));
-        let after = Sized::of(turns);
+        let after = Arrow::of(turns);
         let stops = way.scale(cap * part) + after.cut(cap).scale(number(1.0) - part);
         let ended = V::select(after.1.gt(cap), after.direction(), way.scale(number(STUCK)));
         let moving = V::select(rolls, now.scale(cap), stops);
         let next = V::select(rolls, now, ended);
 
         let inertia = number(0.4) * contact.mass * contact.radius * contact.radius;
-        let held = Sized::of(turns + rolling.scale(number(SHARE) * share * inertia / dt));
+        let held = Arrow::of(turns + rolling.scale(number(SHARE) * share * inertia / dt));
         let released = V::select(held.1.gt(cap), held.direction(), last);
         let torque = V::select(stuck, held.cut(cap), moving);
         *rolled = V::select(stuck, released, next);
