@@ -59,7 +59,12 @@ pub fn documented() -> Vec<Documented> {
                 };
                 // The table of contacts has "values" for the type.
                 let kind = if head.iter().any(|name| name == "type") { cell("type") } else { cell("values") };
-                rows.push(Documented { table, key: key.trim_matches('`').to_owned(), kind, unit: cell("unit") });
+                rows.push(Documented {
+                    table,
+                    key: key.trim_matches('`').to_owned(),
+                    kind,
+                    unit: cell("unit"),
+                });
                 continue;
             }
         }

@@ -132,7 +132,8 @@ fn json(topic: &str, data: &[u8]) -> Option<Rows> {
     match topic {
         record::topic::ENERGY => {
             let terms = json.as_object()?.iter().filter(|(name, _)| *name != "time");
-            let (names, rows) = terms.map(|(name, v)| (name.clone(), vec![v.as_f64().unwrap_or(f64::NAN)])).unzip();
+            let (names, rows) =
+                terms.map(|(name, v)| (name.clone(), vec![v.as_f64().unwrap_or(f64::NAN)])).unzip();
             Some(Rows { columns: columns(&["energy"]), rows, names })
         }
         record::topic::WALL_FORCES => {

@@ -198,7 +198,8 @@ fn matched(topic: &str, a: &Rows, b: &Rows, rule: &Rule) -> Result<BTreeMap<Stri
                 let force = row.values[k..k + 3].iter().map(|x| x * x).sum::<f64>().sqrt();
                 let group = format!("{topic} fx");
                 let size = largest[k];
-                let worst = Worst { deviation: force, row: row.name.clone(), values: [0.0, force], largest: size };
+                let worst =
+                    Worst { deviation: force, row: row.name.clone(), values: [0.0, force], largest: size };
                 keep(&mut found, group, worst);
             }
             None => return Err(format!("row {} is {what}", row.name)),
@@ -219,9 +220,8 @@ fn keep(found: &mut BTreeMap<String, Worst>, group: String, worst: Worst) {
 
 /// The largest number of the group of each column.
 fn largest(columns: &[String], rows: &[Named]) -> Vec<f64> {
-    let mut all: Vec<f64> = (0..columns.len())
-        .map(|k| rows.iter().map(|r| r.values[k].abs()).fold(0.0, f64::max))
-        .collect();
+    let mut all: Vec<f64> =
+        (0..columns.len()).map(|k| rows.iter().map(|r| r.values[k].abs()).fold(0.0, f64::max)).collect();
     let mut k = 0;
     while k < columns.len() {
         let wide = width(column(&columns[k])).min(columns.len() - k);
@@ -239,7 +239,14 @@ fn largest(columns: &[String], rows: &[Named]) -> Vec<f64> {
 /// Columns that name a row and are not values of it.
 const NAMES: [&str; 9] = ["id", "id_i", "id_j", "kind", "body", "partner", "wall", "element", "clump"];
 
-fn row(topic: &str, a: &Rows, b: &Rows, rows: [&Named; 2], largest: &[f64], found: &mut BTreeMap<String, Worst>) {
+fn row(
+    topic: &str,
+    a: &Rows,
+    b: &Rows,
+    rows: [&Named; 2],
+    largest: &[f64],
+    found: &mut BTreeMap<String, Worst>,
+) {
     let mut group = String::new();
     let mut left = 0;
     for (k, name) in a.columns.iter().enumerate() {
@@ -257,7 +264,11 @@ fn row(topic: &str, a: &Rows, b: &Rows, rows: [&Named; 2], largest: &[f64], foun
         let same = values[0] == values[1] || values.iter().all(|v| v.is_nan());
         let deviation = if same { 0.0 } else { (values[0] - values[1]).abs() };
         let deviation = if deviation.is_nan() { f64::INFINITY } else { deviation };
-        keep(found, group.clone(), Worst { deviation, row: rows[0].name.clone(), values, largest: largest[k] });
+        keep(
+            found,
+            group.clone(),
+            Worst { deviation, row: rows[0].name.clone(), values, largest: largest[k] },
+        );
     }
 }
 

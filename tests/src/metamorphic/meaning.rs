@@ -73,7 +73,8 @@ pub fn dimension(unit: &str) -> Dimension {
             let power = powers.iter().find(|p| word.ends_with(p.0));
             let symbol = power.map_or(word, |p| word.trim_end_matches(p.0));
             let known = SYMBOLS.iter().find(|s| s.0 == symbol);
-            let known = known.unwrap_or_else(|| panic!("the unit '{unit}' has the unknown symbol '{symbol}'"));
+            let known =
+                known.unwrap_or_else(|| panic!("the unit '{unit}' has the unknown symbol '{symbol}'"));
             (0..3).for_each(|k| sum[k] += sign * power.map_or(1, |p| p.1) * known.1[k]);
         }
     }
@@ -139,9 +140,9 @@ pub fn meaning(path: &str) -> Meaning {
         "rpm" => Meaning { dimension: [0, 0, -1], kind: Kind::Number },
         _ => {
             // What `domain.strain` says of x holds for every axis.
-            let plain = ["x", "y", "z"].iter().fold(path.to_owned(), |path, axis| {
-                path.replace(&format!("strain.{axis}"), "strain")
-            });
+            let plain = ["x", "y", "z"]
+                .iter()
+                .fold(path.to_owned(), |path, axis| path.replace(&format!("strain.{axis}"), "strain"));
             MEANINGS.get(&plain).copied().unwrap_or(Meaning { dimension: NONE, kind: Kind::Number })
         }
     }

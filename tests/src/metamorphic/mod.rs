@@ -5,13 +5,13 @@
 //! interrupted, with another wall of the same surface. [`compare`] says where two answers differ, and [`shrink`] makes the smallest
 //! scene that still fails. `pipelines/metamorphic.sh` runs thousands, a test a hundred.
 
-pub mod meaning;
-pub mod scene;
-pub mod transform;
 pub mod answer;
+pub mod campaign;
 pub mod compare;
 pub mod draw;
-pub mod campaign;
+pub mod meaning;
 pub mod page;
 pub mod relations;
+pub mod scene;
 pub mod shrink;
+pub mod transform;

@@ -12,7 +12,8 @@ pub fn summary(found: &Findings, seed: u64) -> String {
 
 /// Rows for each relation.
 pub fn table(found: &Findings) -> String {
-    let mut all = String::from("| relation | must give | compared | differ | refused |\n|---|---|---:|---:|---:|\n");
+    let mut all =
+        String::from("| relation | must give | compared | differ | refused |\n|---|---|---:|---:|---:|\n");
     for relation in std::iter::once(&AUTOMATIC).chain(RELATIONS) {
         let count = found.counts.get(relation.name).copied().unwrap_or_default();
         let _ = writeln!(

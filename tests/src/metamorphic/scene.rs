@@ -21,7 +21,9 @@ impl File {
         match self {
             File::Rows(columns, rows) => {
                 let rows = rows.iter().map(|row| line(row).join(","));
-                std::iter::once(columns.join(",")).chain(rows).fold(String::new(), |all, row| all + &row + "\n")
+                std::iter::once(columns.join(","))
+                    .chain(rows)
+                    .fold(String::new(), |all, row| all + &row + "\n")
             }
             File::Mesh(vertices, triangles) => {
                 let mut all = format!(
@@ -50,7 +52,8 @@ impl File {
         let vertices: usize = head.lines().find_map(|l| l.strip_prefix("element vertex "))?.parse().ok()?;
         let numbers = |line: &str| line.split(' ').map(|x| x.parse().ok()).collect::<Option<Vec<f64>>>();
         let points = body.lines().take(vertices).map(|l| numbers(l)?.try_into().ok());
-        let triangle = |l: &str| <[f64; 3]>::try_from(numbers(l)?.get(1..)?).ok().map(|t| t.map(|k| k as usize));
+        let triangle =
+            |l: &str| <[f64; 3]>::try_from(numbers(l)?.get(1..)?).ok().map(|t| t.map(|k| k as usize));
         let triangles = body.lines().skip(vertices).map(triangle);
         Some(File::Mesh(points.collect::<Option<_>>()?, triangles.collect::<Option<_>>()?))
     }
@@ -90,7 +93,8 @@ impl Scene {
     /// Of the disk, and what is no such scene.
     pub fn read(folder: &Path, name: &str) -> io::Result<Scene> {
         let wrong = |e: String| io::Error::new(io::ErrorKind::InvalidData, e);
-        let keys = toml::from_str(&std::fs::read_to_string(folder.join(name))?).map_err(|e| wrong(e.to_string()))?;
+        let keys =
+            toml::from_str(&std::fs::read_to_string(folder.join(name))?).map_err(|e| wrong(e.to_string()))?;
         let mut files = BTreeMap::new();
         for entry in std::fs::read_dir(folder)? {
             let path = entry?.path();
@@ -98,7 +102,8 @@ impl Scene {
             let end = path.extension().unwrap_or_default();
             if end == "csv" || end == "ply" {
                 let text = std::fs::read_to_string(&path)?;
-                let file = File::parse(&text).ok_or_else(|| wrong(format!("{name} is none of this program's files")))?;
+                let file = File::parse(&text)
+                    .ok_or_else(|| wrong(format!("{name} is none of this program's files")))?;
                 files.insert(name, file);
             }
         }
@@ -147,7 +152,9 @@ impl Scene {
     /// Whether any contact law has this text as a key or value.
     pub fn has_in_contacts(&self, words: &[&str]) -> bool {
         let has = |table: &Table| {
-            table.iter().any(|(key, value)| words.contains(&key.as_str()) || value.as_str().is_some_and(|v| words.contains(&v)))
+            table.iter().any(|(key, value)| {
+                words.contains(&key.as_str()) || value.as_str().is_some_and(|v| words.contains(&v))
+            })
         };
         self.list("contact").any(has)
     }

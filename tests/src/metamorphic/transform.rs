@@ -211,7 +211,8 @@ impl Transform {
                     let full = [[i[0], i[3], i[4]], [i[3], i[1], i[5]], [i[4], i[5], i[2]]];
                     let of = |a: usize, b: usize| -> f64 {
                         let term = |k: usize, l: usize| self.turn[a][k] * full[k][l] * self.turn[b][l];
-                        (0..3).map(|k| (0..3).map(|l| term(k, l)).sum::<f64>()).sum::<f64>() * self.factor([5, 0, 0])
+                        (0..3).map(|k| (0..3).map(|l| term(k, l)).sum::<f64>()).sum::<f64>()
+                            * self.factor([5, 0, 0])
                     };
                     *value = array(&[of(0, 0), of(1, 1), of(2, 2), of(0, 1), of(0, 2), of(1, 2)]);
                 }

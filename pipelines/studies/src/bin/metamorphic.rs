@@ -35,7 +35,8 @@ impl Options {
 
 fn main() -> io::Result<ExitCode> {
     let options = Options(env::args().skip(1).collect());
-    let runner = Runner { program: options.text("--dem-run").map_or_else(|| program("dem-run"), PathBuf::from) };
+    let runner =
+        Runner { program: options.text("--dem-run").map_or_else(|| program("dem-run"), PathBuf::from) };
     let runner = Runner { program: fs::canonicalize(runner.program)? };
     if let Some(folder) = options.text("--scene") {
         return show(&runner, &options, &PathBuf::from(folder));
@@ -68,7 +69,8 @@ fn all(runner: &Runner, options: &Options) -> Findings {
                     if k >= end {
                         break;
                     }
-                    let part = campaign::ask(runner, seed * 1_000_000 + k, &|relation| options.chooses(relation));
+                    let part =
+                        campaign::ask(runner, seed * 1_000_000 + k, &|relation| options.chooses(relation));
                     for failure in &part.failures {
                         eprintln!("scene {k}, {}: {}", failure.relation.name, failure.words);
                     }

@@ -68,8 +68,11 @@ impl Draw {
         let names: Vec<&str> = names.map(|(name, _)| name).collect();
         let (low, high, periodic) = (self.choices.low, self.high(), self.choices.periodic);
         if !names.is_empty() {
-            let far = |k: usize, edge: f64, away: f64| if periodic[k] { edge } else { super::digits(edge + away, 6) };
-            let (low, high) = ([0, 1, 2].map(|k| far(k, low[k], -0.1)), [0, 1, 2].map(|k| far(k, high[k], 0.1)));
+            let far = |k: usize, edge: f64, away: f64| {
+                if periodic[k] { edge } else { super::digits(edge + away, 6) }
+            };
+            let (low, high) =
+                ([0, 1, 2].map(|k| far(k, low[k], -0.1)), [0, 1, 2].map(|k| far(k, high[k], 0.1)));
             self.line(format!("[domain]\nperiodic = {names:?}\nlow = {low:?}\nhigh = {high:?}"));
         } else if self.chance(0.1) {
             self.line("[domain]\noutside = \"keep\"");

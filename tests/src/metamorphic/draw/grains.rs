@@ -112,7 +112,11 @@ impl Draw {
         self.line("[[clump]]\nname = \"pair\"\nmaterial = \"a\"");
         let (r, a) = (self.between(0.2, 0.3) * CELL, 0.15 * CELL);
         let (r, a) = (digits(r, 4), digits(a, 4));
-        let third = if self.chance(0.5) { format!(", [0.0, {a:?}, 0.0, {:?}]", digits(0.8 * r, 4)) } else { String::new() };
+        let third = if self.chance(0.5) {
+            format!(", [0.0, {a:?}, 0.0, {:?}]", digits(0.8 * r, 4))
+        } else {
+            String::new()
+        };
         self.line(format!("spheres = [[-{a:?}, 0.0, 0.0, {r:?}], [{a:?}, 0.0, 0.0, {r:?}]{third}]"));
         match self.pick(&[0, 1, 2]) {
             0 => self.line("mass = \"sum\""),
@@ -136,7 +140,12 @@ impl Draw {
         if self.chance(0.5) {
             for b in &bodies {
                 let q = quaternion(self);
-                self.line(format!("[[body]]\nclump = \"pair\"\nposition = {:?}\nvelocity = {:?}\nspin = {:?}", &b[..3], &b[3..6], &b[6..]));
+                self.line(format!(
+                    "[[body]]\nclump = \"pair\"\nposition = {:?}\nvelocity = {:?}\nspin = {:?}",
+                    &b[..3],
+                    &b[3..6],
+                    &b[6..]
+                ));
                 self.maybe(0.8, format!("quaternion = {q:?}"));
                 self.key(0.2, "scale", 0.8, 1.0);
             }
@@ -177,7 +186,8 @@ impl Draw {
 
     fn insertion(&mut self) {
         let (low, high) = (self.choices.low, self.high());
-        let above = [low[0], low[1], digits(high[2] + 0.002, 9), high[0], high[1], digits(high[2] + 0.014, 9)];
+        let above =
+            [low[0], low[1], digits(high[2] + 0.002, 9), high[0], high[1], digits(high[2] + 0.014, 9)];
         let clump = self.choices.clumps && self.chance(0.4);
         let what = if clump { "clump = \"pair\"" } else { "material = \"b\"" };
         self.line(format!("[[insert]]\n{what}\nshape = {{ box = {above:?} }}\nvelocity = [0.0, 0.0, -0.8]"));

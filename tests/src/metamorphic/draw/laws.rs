@@ -5,13 +5,8 @@ use dem::effects::{DESCRIPTIONS, Description, Key, Slot};
 use toml::{Table, Value};
 
 /// Values by unit that suit grains of a centimetre and a gram.
-const SCALES: [(&str, f64, f64); 5] = [
-    ("N/m", 3e3, 3e4),
-    ("Pa", 5e5, 3e6),
-    ("N s/m", 0.03, 0.5),
-    ("J/m²", 0.01, 0.1),
-    ("J/m³", 500.0, 5e3),
-];
+const SCALES: [(&str, f64, f64); 5] =
+    [("N/m", 3e3, 3e4), ("Pa", 5e5, 3e6), ("N s/m", 0.03, 0.5), ("J/m²", 0.01, 0.1), ("J/m³", 500.0, 5e3)];
 
 /// Laws that are drawn until one is found whose keys do not contradict each other.
 const TRIES: usize = 60;
@@ -53,7 +48,9 @@ impl Draw {
         let mut law = Table::new();
         law.insert("between".to_owned(), between.map(str::to_owned).to_vec().into());
         let single = self.choices.single;
-        let of = |slot: Slot| DESCRIPTIONS.iter().copied().filter(move |d| d.slot == slot && (d.every_precision || !single));
+        let of = |slot: Slot| {
+            DESCRIPTIONS.iter().copied().filter(move |d| d.slot == slot && (d.every_precision || !single))
+        };
         let normal: Vec<_> = of(Slot::Normal).collect();
         let normal = self.pick(&normal);
         self.effect(&mut law, normal);
@@ -117,8 +114,9 @@ fn put(law: &mut Table, name: &str, value: f64) {
 fn accepted(law: &Table) -> bool {
     let mut list = Table::new();
     list.insert("contact".to_owned(), Value::Array(vec![Value::Table(law.clone())]));
-    let materials =
-        ["a", "b"].map(|n| format!("[[material]]\nname = \"{n}\"\ndensity = 2000\nyoung = 2e6\npoisson = 0.3\n"));
-    let text = format!("[time]\nuntil = 1\n{}{}", materials.concat(), toml::to_string(&list).unwrap_or_default());
+    let materials = ["a", "b"]
+        .map(|n| format!("[[material]]\nname = \"{n}\"\ndensity = 2000\nyoung = 2e6\npoisson = 0.3\n"));
+    let text =
+        format!("[time]\nuntil = 1\n{}{}", materials.concat(), toml::to_string(&list).unwrap_or_default());
     scene::Scene::new("law", text, &[], std::path::Path::new("")).is_ok()
 }

@@ -110,7 +110,8 @@ impl Draw {
         let cells = periodic.map(|p| if p { 3 } else { 2 } + usize::from(self.chance(0.4)));
         let dense = self.chance(0.35);
         let inserted = !plain && !strained && !periodic[2] && self.chance(0.2);
-        self.choices = Choices { plain, single, periodic, strained, sleep, bonded, clumps, dense, inserted, cells, low };
+        self.choices =
+            Choices { plain, single, periodic, strained, sleep, bonded, clumps, dense, inserted, cells, low };
     }
 
     /// Highest corner of the grid [m].

@@ -37,7 +37,15 @@ impl Draw {
             for upper in [false, true] {
                 let above = self.choices.inserted && axis == 2 && upper;
                 let often = self.choices.plain && periodic != [false; 3];
-                if above || !self.chance(if upper { 0.35 } else if often { 0.95 } else { 0.7 }) {
+                if above
+                    || !self.chance(if upper {
+                        0.35
+                    } else if often {
+                        0.95
+                    } else {
+                        0.7
+                    })
+                {
                     continue;
                 }
                 // A face that cuts into the outermost grains would push them at once: it lies at theirs or a little outside.
@@ -208,7 +216,9 @@ impl Draw {
         } else if self.chance(0.3) {
             let about = face.inward(1.0);
             let rpm = self.between(-200.0, 200.0);
-            self.line(format!("surface_rotation = {{ about = {about:?}, through = {centre:?}, rpm = {rpm:?} }}"));
+            self.line(format!(
+                "surface_rotation = {{ about = {about:?}, through = {centre:?}, rpm = {rpm:?} }}"
+            ));
         }
     }
 
@@ -220,7 +230,9 @@ impl Draw {
         } else {
             let (about, through) = (face.inward(1.0), self.choices.low);
             let rpm = self.between(-200.0, 200.0);
-            self.line(format!("surface_rotation = {{ about = {about:?}, through = {through:?}, rpm = {rpm:?} }}"));
+            self.line(format!(
+                "surface_rotation = {{ about = {about:?}, through = {through:?}, rpm = {rpm:?} }}"
+            ));
         }
     }
 
@@ -260,10 +272,14 @@ impl Draw {
 
     fn one_motion(&mut self, face: Face, plane: bool, first: bool) -> String {
         let through = self.choices.low;
-        let about = if plane { face.inward(1.0) } else { self.vector(1.0).map(|x| x + 0.1).map(|x| digits(x, 4)) };
+        let about =
+            if plane { face.inward(1.0) } else { self.vector(1.0).map(|x| x + 0.1).map(|x| digits(x, 4)) };
         let mut all = Vec::new();
         match self.pick(&[0, 1, 2, 3, 4]) {
-            0 => all.push(format!("rotate = {{ about = {about:?}, through = {through:?}, rpm = {:?} }}", self.between(-30.0, 30.0))),
+            0 => all.push(format!(
+                "rotate = {{ about = {about:?}, through = {through:?}, rpm = {:?} }}",
+                self.between(-30.0, 30.0)
+            )),
             1 if !plane => all.push(format!(
                 "swing = {{ about = {about:?}, through = {through:?}, amplitude = 0.02, frequency = {:?} }}",
                 self.between(20.0, 60.0)
@@ -276,7 +292,8 @@ impl Draw {
             3 => {
                 let columns = ["t", "x", "y", "z"].map(str::to_owned).to_vec();
                 let to = self.vector(5e-4).to_vec();
-                let rows = vec![vec![0.0; 4], [vec![0.5 * TIME], to.clone()].concat(), [vec![1.0], to].concat()];
+                let rows =
+                    vec![vec![0.0; 4], [vec![0.5 * TIME], to.clone()].concat(), [vec![1.0], to].concat()];
                 let name = self.file("path", "csv", File::Rows(columns, rows));
                 all.push(format!("path = {{ source = \"{name}\" }}"));
             }

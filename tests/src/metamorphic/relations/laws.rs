@@ -54,7 +54,8 @@ fn momentum(frame: &Frame, densities: &[f64]) -> Option<([f64; 3], f64)> {
 }
 
 fn momentum_stays(case: &Case) -> Option<Verdict> {
-    let densities: Vec<f64> = case.scene.list("material").filter_map(|m| m.get("density")?.as_float()).collect();
+    let densities: Vec<f64> =
+        case.scene.list("material").filter_map(|m| m.get("density")?.as_float()).collect();
     let mut frames = case.base.frames.values().filter_map(|f| momentum(f, &densities));
     let (first, size) = frames.next()?;
     for (sum, now) in frames {
@@ -83,7 +84,14 @@ fn elastic(scene: &Scene) -> Option<Scene> {
     }
     let mut scene = scene.clone();
     for contact in scene.list_mut("contact") {
-        let keep = ["between", "law", "stiffness", "contact_modulus", "effective_modulus", "characteristic_velocity"];
+        let keep = [
+            "between",
+            "law",
+            "stiffness",
+            "contact_modulus",
+            "effective_modulus",
+            "characteristic_velocity",
+        ];
         contact.retain(|key, _| keep.contains(&key));
         let law = contact.get("law").and_then(Value::as_str).unwrap_or("hertz").to_owned();
         if law == "jkr" {
@@ -129,7 +137,11 @@ pub fn elastic_energy(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
         Err(refusal) => return Some(refused(&refusal)),
     };
     let made = made(&fine)?;
-    Some(if made > ELASTIC { Verdict::Differs(format!("{made:e} of the energy is made or lost")) } else { Verdict::Same })
+    Some(if made > ELASTIC {
+        Verdict::Differs(format!("{made:e} of the energy is made or lost"))
+    } else {
+        Verdict::Same
+    })
 }
 
 /// Most energy that an eighth of the step of a scene may make [–].
@@ -162,7 +174,8 @@ pub fn reversal(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
         Some(frame)
     };
     let start = there.frames.get(&0)?.clone();
-    let frames = |frame: Frame| Answer { frames: [(0, frame.clone()), (1, frame)].into(), ..Answer::default() };
+    let frames =
+        |frame: Frame| Answer { frames: [(0, frame.clone()), (1, frame)].into(), ..Answer::default() };
     let (start, end) = (frames(start), frames(end(&again, -1.0)?));
     Some(case.judge(&start, &end, &Rule { tolerance: case.rounding(1e-8), ..Rule::bits(PARTICLES) }))
 }
@@ -175,7 +188,8 @@ fn reversed(scene: &Scene, columns: &[String], rows: &[Vec<f64>]) -> Option<Scen
     let of: Vec<usize> = names.iter().map(|n| at(n)).collect::<Option<_>>()?;
     let mut scene = scene.clone();
     let fixed = |p: &Table| p.get("fixed").and_then(Value::as_bool).unwrap_or(false);
-    let mut entries: Vec<Value> = scene.list("particles").filter(|p| fixed(p)).cloned().map(Value::Table).collect();
+    let mut entries: Vec<Value> =
+        scene.list("particles").filter(|p| fixed(p)).cloned().map(Value::Table).collect();
     let materials: Vec<Value> = scene.list("material").filter_map(|m| m.get("name").cloned()).collect();
     for (k, material) in materials.into_iter().enumerate() {
         let of_it = rows.iter().filter(|row| row[m] as usize == k);
@@ -217,7 +231,10 @@ fn balance(case: &Case) -> Option<Verdict> {
         let first = *first.get_or_insert(balance);
         let limit = if case.is_double() { 1e-10 } else { 1e-4 } * size;
         if (balance - first).abs() > limit {
-            answer = Verdict::Differs(format!("step {step}: the balance is {:e} off, of {size:e}", balance - first));
+            answer = Verdict::Differs(format!(
+                "step {step}: the balance is {:e} off, of {size:e}",
+                balance - first
+            ));
         }
     }
     first.map(|_| answer)
@@ -243,13 +260,18 @@ pub fn halved(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
             frames: answer.last().into_iter().flat_map(|f| [(0, f.clone()), (1, f.clone())]).collect(),
             ..Answer::default()
         };
-        crate::metamorphic::compare::deviations(&last(a), &last(b)).get("/particles x").copied().unwrap_or(0.0)
+        crate::metamorphic::compare::deviations(&last(a), &last(b))
+            .get("/particles x")
+            .copied()
+            .unwrap_or(0.0)
     };
     let (first, second) = (end(&runs[0], &runs[1]), end(&runs[1], &runs[2]));
     // Far below a grain's radius both are the noise of when contacts begin.
     let grows = second > 0.75 * first && second > 2e-5;
     Some(if grows {
-        Verdict::Differs(format!("an eighth of the step moves grains by {first:e} m, a sixteenth by {second:e} m"))
+        Verdict::Differs(format!(
+            "an eighth of the step moves grains by {first:e} m, a sixteenth by {second:e} m"
+        ))
     } else {
         Verdict::Same
     })

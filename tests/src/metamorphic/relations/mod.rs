@@ -41,7 +41,7 @@ const fn rounding(name: &'static str, question: Question) -> Relation {
 }
 
 /// The step that the program chose, given as a number. Each scene is asked this as it is drawn.
-pub static AUTOMATIC: Relation = bits(super::campaign::AUTO, |_, _| None);
+pub static AUTOMATIC: Relation = rounding(super::campaign::AUTO, |_, _| None);
 
 /// Every relation.
 pub static RELATIONS: &[Relation] = &[
@@ -70,7 +70,11 @@ pub static RELATIONS: &[Relation] = &[
     rounding("moving frame", space::boosted),
     rounding("doubled periodic cell", space::doubled),
     Relation { name: "two runs in a row", exact: "order of the step", question: starts::unchanged },
-    Relation { name: "two runs in a row on fixed grains", exact: "order of the step", question: starts::on_fixed },
+    Relation {
+        name: "two runs in a row on fixed grains",
+        exact: "order of the step",
+        question: starts::on_fixed,
+    },
     rounding("two runs in a row, walls in other words", starts::reworded),
     rounding("plane = mesh", walls::plane_as_mesh),
     rounding("plane = face of a box", walls::plane_as_box),
@@ -84,7 +88,11 @@ pub static RELATIONS: &[Relation] = &[
     rounding("time reversal", laws::reversal),
     rounding("ledger", laws::ledger),
     rounding("ledger of clumps", laws::ledger_of_clumps),
-    Relation { name: "energy of elastic contacts", exact: "order of the step", question: laws::elastic_energy },
+    Relation {
+        name: "energy of elastic contacts",
+        exact: "order of the step",
+        question: laws::elastic_energy,
+    },
     Relation { name: "halved step", exact: "order of the step", question: laws::halved },
 ];
 
@@ -99,7 +107,7 @@ fn is_drawn(scene: &Scene) -> bool {
 }
 
 /// Whether a small change can grow at once: sleep, breaking bonds, signs of velocities.
-fn jumps(scene: &Scene) -> bool {
+pub fn jumps(scene: &Scene) -> bool {
     scene.has(&["sleep", "local_damping", "outlet"])
         || scene.get("domain.strain").is_some()
         || scene.list("wall").any(|w| w.contains_key("servo"))

@@ -33,7 +33,8 @@ pub fn interval(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let part = random.random_range(1..5);
     scene.set("output", "every", time(case.steps() / 4, case.base.dt) / f64::from(part));
     scene.set("output", "checkpoint", case.base.dt * random.random_range(3.0..50.0));
-    let topics = &[topic::PARTICLES, topic::BODIES, topic::BONDS, topic::ENERGY, topic::WALL_FORCES, topic::HISTORY];
+    let topics =
+        &[topic::PARTICLES, topic::BODIES, topic::BONDS, topic::ENERGY, topic::WALL_FORCES, topic::HISTORY];
     Some(case.ask(&scene, &[], &Rule::bits(topics)))
 }
 
@@ -46,7 +47,8 @@ pub fn switches(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
     }
     // The guard keeps the ledger.
     scene.keys.get_mut("guards").and_then(|g| g.as_table_mut()).map(|guards| guards.remove("energy"));
-    let topics = &[topic::PARTICLES, topic::BODIES, topic::BONDS, topic::CRACKS, topic::HISTORY, topic::CROSSINGS];
+    let topics =
+        &[topic::PARTICLES, topic::BODIES, topic::BONDS, topic::CRACKS, topic::HISTORY, topic::CROSSINGS];
     Some(case.ask(&scene, &[], &Rule::bits(topics)))
 }
 
@@ -70,7 +72,10 @@ fn interrupted(case: &Case, random: &mut Pcg64Mcg, more: &[&str]) -> Option<Verd
     let mut arguments = vec!["scene.toml", "--resume", "begun.mcap"];
     arguments.extend(more);
     match case.runner.call(&folder, &arguments) {
-        Err(refusal) => Some(Verdict::Differs(format!("a run that was interrupted at step {step} cannot be resumed: {}", refusal.words))),
+        Err(refusal) => Some(Verdict::Differs(format!(
+            "a run that was interrupted at step {step} cannot be resumed: {}",
+            refusal.words
+        ))),
         Ok(mut other) => {
             // The frame at the interruption is left out, and its cracks come in a message of their own.
             let mut base = case.base.clone();

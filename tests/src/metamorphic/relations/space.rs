@@ -17,7 +17,8 @@ const MOVED: &[&str] = &[topic::PARTICLES, topic::BODIES, topic::CONTACTS, topic
 pub fn similarity(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let scene = &case.scene;
     // Defaults that have a unit, and what bounds of accuracy compare with.
-    let fixed = scene.has_in_contacts(&["characteristic_velocity", "jkr"]) || scene.has(&["drag", "sleep", "outlet"]);
+    let fixed =
+        scene.has_in_contacts(&["characteristic_velocity", "jkr"]) || scene.has(&["drag", "sleep", "outlet"]);
     let random_places = !is_placed(scene);
     let servos = scene.list("wall").any(|w| w.contains_key("servo") || w.contains_key("spring"));
     if fixed || random_places || servos || scene.list("contact").any(|c| is_hooke_by_velocity(c)) {
@@ -34,7 +35,8 @@ pub fn similarity(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
 /// A linear law without its stiffness has that of a speed.
 fn is_hooke_by_velocity(contact: &Table) -> bool {
     let law = contact.get("law").and_then(Value::as_str);
-    let given = ["stiffness", "contact_modulus", "effective_modulus"].iter().any(|k| contact.contains_key(*k));
+    let given =
+        ["stiffness", "contact_modulus", "effective_modulus"].iter().any(|k| contact.contains_key(*k));
     matches!(law, Some("hooke" | "walton_braun")) && !given
 }
 
@@ -71,7 +73,9 @@ pub fn permuted(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
 /// Any rotation.
 pub fn rotated(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let scene = &case.scene;
-    let boxed = scene.list("wall").any(|w| w.contains_key("box") || w.get("solid").is_some_and(|s| s.get("box").is_some()));
+    let boxed = scene
+        .list("wall")
+        .any(|w| w.contains_key("box") || w.get("solid").is_some_and(|s| s.get("box").is_some()));
     let round = scene.list("wall").any(|w| w.contains_key("solid"));
     if !is_placed(scene) || jumps(scene) || scene.get("domain.periodic").is_some() || boxed || round {
         return None;
@@ -119,7 +123,9 @@ pub fn rolled(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
         _ => false,
     };
     // Walls that are the same everywhere along the axes: planes and faces of boxes that end where their image begins.
-    let alike = |w: &Table| (w.contains_key("plane") || w.contains_key("box")) && !w.contains_key("surface_rotation") && !moves(w);
+    let alike = |w: &Table| {
+        (w.contains_key("plane") || w.contains_key("box")) && !w.contains_key("surface_rotation") && !moves(w)
+    };
     let fixed = |p: &Table| p.get("fixed").and_then(Value::as_bool).unwrap_or(false);
     if periods.is_empty()
         || !is_placed(scene)
@@ -131,7 +137,8 @@ pub fn rolled(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
         return None;
     }
     // One of the grains crosses a face soon.
-    let grain = first_states(scene).and_then(|rows| rows.get(random.random_range(0..rows.len().max(1))).cloned());
+    let grain =
+        first_states(scene).and_then(|rows| rows.get(random.random_range(0..rows.len().max(1))).cloned());
     let mut shift = [0.0; 3];
     for (axis, low, period) in &periods {
         let Some(grain) = &grain else { continue };
@@ -185,7 +192,9 @@ fn wrap(scene: &mut Scene, periods: &[(usize, f64, f64)]) {
     for (_, file) in files.iter_mut().filter(|(name, _)| !name.starts_with("path")) {
         if let (Some(x), File::Rows(_, rows)) = (file.column("x"), file) {
             for row in rows.iter_mut() {
-                periods.iter().for_each(|(axis, low, period)| row[x + axis] = wrapped(row[x + axis], *low, *period));
+                periods
+                    .iter()
+                    .for_each(|(axis, low, period)| row[x + axis] = wrapped(row[x + axis], *low, *period));
             }
         }
     }
@@ -219,7 +228,9 @@ pub fn boosted(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let frame = Transform { boost, ..Transform::default() };
     let Scene { keys, files } = &mut other;
     for (name, file) in files.iter_mut() {
-        if let (true, File::Rows(columns, rows)) = (name.starts_with("grains") || name.starts_with("clumps"), file) {
+        if let (true, File::Rows(columns, rows)) =
+            (name.starts_with("grains") || name.starts_with("clumps"), file)
+        {
             rows.iter_mut().for_each(|row| frame.row(columns, row, false));
         }
     }
@@ -251,7 +262,8 @@ pub fn boosted(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
             rows.rows.iter_mut().for_each(|row| row[x..x + 3].fill(0.0));
         }
     }
-    let rule = Rule { transform, tolerance: case.rounding(1e-9), ..Rule::bits(&[topic::PARTICLES, topic::BODIES]) };
+    let rule =
+        Rule { transform, tolerance: case.rounding(1e-9), ..Rule::bits(&[topic::PARTICLES, topic::BODIES]) };
     Some(case.judge(&base, &answer, &rule))
 }
 
@@ -262,7 +274,10 @@ pub fn doubled(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     if periods.is_empty() || !is_placed(scene) || jumps(scene) || is_drawn(scene) {
         return None;
     }
-    if scene.has(&["wall", "clump"]) || scene.list("particles").any(|p| p.contains_key("fixed")) || scene.get("domain.strain").is_some() {
+    if scene.has(&["wall", "clump"])
+        || scene.list("particles").any(|p| p.contains_key("fixed"))
+        || scene.get("domain.strain").is_some()
+    {
         return None;
     }
     let (axis, low, period) = periods[random.random_range(0..periods.len())];
@@ -297,7 +312,9 @@ pub fn doubled(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
             let (Some(id), Some(x)) = (at("id"), at("x")) else { continue };
             let first = rows.rows.iter().map(|r| r[id]).fold(f64::INFINITY, f64::min);
             rows.rows.retain(|row| row[id] < first + count as f64);
-            rows.rows.iter_mut().for_each(|row| row[x + axis] = (std::f64::consts::TAU * (row[x + axis] - low) / period).sin());
+            rows.rows.iter_mut().for_each(|row| {
+                row[x + axis] = (std::f64::consts::TAU * (row[x + axis] - low) / period).sin()
+            });
         }
     }
     let tolerance = case.rounding(1e-9);

@@ -42,7 +42,8 @@ fn divided(case: &Case) -> Option<Verdict> {
         let half = steps / 4 * 2;
         let folder = first(case, &scene, half, dt)?;
         let other = second(case, &folder, &scene, &scene, steps - half, dt)?;
-        let frames = whole.frames.iter().filter(|(s, _)| **s >= half).map(|(s, f)| (s - half, f.clone())).collect();
+        let frames =
+            whole.frames.iter().filter(|(s, _)| **s >= half).map(|(s, f)| (s - half, f.clone())).collect();
         let speeds = whole.last().and_then(|f| f.get(record::topic::PARTICLES)).map_or(0.0, |rows| {
             let v = rows.columns.iter().position(|c| c == "vx").unwrap_or(0);
             rows.rows.iter().flat_map(|row| &row[v..v + 3]).fold(0.0, |most: f64, x| most.max(x.abs()))
@@ -53,7 +54,9 @@ fn divided(case: &Case) -> Option<Verdict> {
     match (off(2), off(8)) {
         (Err(refusal), _) | (_, Err(refusal)) => Some(refused(&refusal)),
         (Ok([coarse, _]), Ok([fine, speed])) if fine > 0.6 * coarse && fine > SMALL * speed => {
-            Some(Verdict::Differs(format!("with a quarter of the step velocities differ by {fine:e} m/s, before by {coarse:e} m/s")))
+            Some(Verdict::Differs(format!(
+                "with a quarter of the step velocities differ by {fine:e} m/s, before by {coarse:e} m/s"
+            )))
         }
         _ => Some(Verdict::Same),
     }
@@ -62,7 +65,8 @@ fn divided(case: &Case) -> Option<Verdict> {
 /// The same walls with triangles in another order, and behind a wall that nothing reaches.
 pub fn reworded(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let scene = &case.scene;
-    if !scene.has(&["wall"]) || !is_divisible(scene) || jumps(scene) || scene.get("domain.periodic").is_some() {
+    if !scene.has(&["wall"]) || !is_divisible(scene) || jumps(scene) || scene.get("domain.periodic").is_some()
+    {
         return None;
     }
     let mut other = other_triangles(scene, random).unwrap_or_else(|| scene.clone());
@@ -105,9 +109,17 @@ fn first(case: &Case, scene: &Scene, steps: u64, dt: f64) -> Result<PathBuf, Ref
 }
 
 /// Runs a scene from the end of the first part.
-fn second(case: &Case, folder: &std::path::Path, before: &Scene, scene: &Scene, steps: u64, dt: f64) -> Result<Answer, Refusal> {
+fn second(
+    case: &Case,
+    folder: &std::path::Path,
+    before: &Scene,
+    scene: &Scene,
+    steps: u64,
+    dt: f64,
+) -> Result<Answer, Refusal> {
     let mut scene = scene.clone();
-    let mut particles: Vec<Value> = before.list("particles").filter(|p| is_fixed(p)).cloned().map(Value::Table).collect();
+    let mut particles: Vec<Value> =
+        before.list("particles").filter(|p| is_fixed(p)).cloned().map(Value::Table).collect();
     particles.push(Value::Table([("source".to_owned(), "settled.mcap".into())].into_iter().collect()));
     scene.keys.remove("body");
     scene.keys.insert("particles".to_owned(), Value::Array(particles));

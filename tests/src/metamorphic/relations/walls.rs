@@ -28,8 +28,13 @@ fn axis_of(plane: &[f64]) -> Option<usize> {
 /// Low and high end along each axis, of the periodic cell or far away.
 fn ends(scene: &Scene) -> [[f64; 2]; 3] {
     let of = |key: &str| scene.get(key).and_then(numbers);
-    let names: Vec<&str> =
-        scene.get("domain.periodic").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect();
+    let names: Vec<&str> = scene
+        .get("domain.periodic")
+        .and_then(Value::as_array)
+        .into_iter()
+        .flatten()
+        .filter_map(Value::as_str)
+        .collect();
     let (low, high) = (of("domain.low"), of("domain.high"));
     [0, 1, 2].map(|k| match (&low, &high) {
         (Some(low), Some(high)) if names.contains(&["x", "y", "z"][k]) => [low[k], high[k]],
@@ -101,7 +106,10 @@ pub fn plane_as_box(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
         corners[if upper { 3 + axis } else { axis }] = plane[axis];
         wall.remove("plane");
         wall.insert("box".to_owned(), array(&corners));
-        wall.insert("faces".to_owned(), vec![format!("{}{}", ["x", "y", "z"][axis], if upper { "+" } else { "-" })].into());
+        wall.insert(
+            "faces".to_owned(),
+            vec![format!("{}{}", ["x", "y", "z"][axis], if upper { "+" } else { "-" })].into(),
+        );
         any = true;
     }
     any.then(|| ask(case, &scene)).flatten()
@@ -127,7 +135,10 @@ pub fn box_as_mesh(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
             let of = |k: usize| [corners[k % 3], corners[k % 3 + 3]];
             let at = of(axis)[usize::from(face.ends_with('+'))];
             let name = format!("face{}.ply", files.len());
-            files.push((name.clone(), rectangle(axis, at, of(axis + 1), of(axis + 2), random.random_range(1..4))));
+            files.push((
+                name.clone(),
+                rectangle(axis, at, of(axis + 1), of(axis + 2), random.random_range(1..4)),
+            ));
             let mut one = wall.clone();
             one.remove("box");
             one.remove("faces");

@@ -153,7 +153,8 @@ pub fn materials(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
 /// Rows of files in another order, each with the id that it has.
 pub fn particles(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let mut scene = case.scene.clone();
-    if scene.has(&["clump"]) || !is_placed(&scene) || is_drawn(&scene) && scene.keys.contains_key("first_id") {
+    if scene.has(&["clump"]) || !is_placed(&scene) || is_drawn(&scene) && scene.keys.contains_key("first_id")
+    {
         return None;
     }
     let mut next = scene.number("first_id").unwrap_or(0.0);
@@ -177,7 +178,10 @@ pub fn particles(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
 /// Walls in another order: forces of several walls on one grain are added in another order.
 pub fn walls(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
     let mut scene = case.scene.clone();
-    if scene.list("wall").any(|w| w.contains_key("servo")) || !reversed(&mut scene, "wall") || super::jumps(&scene) {
+    if scene.list("wall").any(|w| w.contains_key("servo"))
+        || !reversed(&mut scene, "wall")
+        || super::jumps(&scene)
+    {
         return None;
     }
     let rule = Rule { tolerance: case.rounding(1e-10), ..Rule::bits(PARTICLES) };
@@ -229,7 +233,12 @@ pub fn idle_effects(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
 /// A material that nothing has.
 pub fn unused_materials(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
     let mut scene = case.scene.clone();
-    let entry = [("name", Value::from("unused")), ("density", 9e3.into()), ("young", 3e7.into()), ("poisson", 0.1.into())];
+    let entry = [
+        ("name", Value::from("unused")),
+        ("density", 9e3.into()),
+        ("young", 3e7.into()),
+        ("poisson", 0.1.into()),
+    ];
     scene.push("material", entry.into_iter().map(|(k, v)| (k.to_owned(), v)).collect());
     let mut law = Table::new();
     law.insert("between".to_owned(), vec!["unused".to_owned(), "a".to_owned()].into());
