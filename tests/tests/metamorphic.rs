@@ -14,7 +14,10 @@ const SCENES: u64 = 100;
 const SEED: u64 = 7_000_000;
 
 /// Relations that some scenes fail, and why.
-const KNOWN: &[(&str, &str)] = &[];
+const KNOWN: &[(&str, &str)] = &[(
+    "ledger of clumps",
+    "the sum of all terms drifts by a part of `integration`, and falls with its order",
+)];
 
 #[test]
 fn a_hundred_scenes_have_one_answer_in_other_words() {

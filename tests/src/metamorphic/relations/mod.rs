@@ -41,7 +41,7 @@ const fn rounding(name: &'static str, question: Question) -> Relation {
 }
 
 /// The step that the program chose, given as a number. Each scene is asked this as it is drawn.
-pub static AUTOMATIC: Relation = bits(super::campaign::AUTO, |_, _| None);
+pub static AUTOMATIC: Relation = rounding(super::campaign::AUTO, |_, _| None);
 
 /// Every relation.
 pub static RELATIONS: &[Relation] = &[
@@ -107,7 +107,7 @@ fn is_drawn(scene: &Scene) -> bool {
 }
 
 /// Whether a small change can grow at once: sleep, breaking bonds, signs of velocities.
-fn jumps(scene: &Scene) -> bool {
+pub fn jumps(scene: &Scene) -> bool {
     scene.has(&["sleep", "local_damping", "outlet"])
         || scene.get("domain.strain").is_some()
         || scene.list("wall").any(|w| w.contains_key("servo"))
