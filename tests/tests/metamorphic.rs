@@ -57,13 +57,17 @@ fn a_hundred_scenes_have_one_answer_in_other_words() {
 }
 
 /// Keys that no scene has, and why.
-const LEFT_OUT: &[(&str, &str)] = &[(
-    "inlet.",
-    "needs the record of a stage upstream: the tests of zones and stages cut scenes and compare",
-)];
+const LEFT_OUT: &[(&str, &str)] = &[
+    ("domain.source", "needs a strained run before: the tests of strained cells go on from one"),
+    ("wall.source", "needs a file of wallgen: layers of fixed grains are walls of spheres, too"),
+    ("clump.mesh", "needs a closed mesh for each clump: spheres and moments are drawn"),
+    ("clump.vertex_radius", "stands beside `mesh`"),
+    ("clump.faces", "stands beside `mesh`"),
+    ("inlet.", "needs the record of a stage upstream: the tests of zones and stages cut scenes and compare"),
+];
 
 /// Scenes among which each key must be.
-const DRAWN: u64 = 400;
+const DRAWN: u64 = 1000;
 
 #[test]
 fn every_key_is_drawn() {

@@ -313,7 +313,25 @@ fn named(topic: &str, table: &Rows, rule: &Rule, changed: bool) -> Vec<Named> {
         all.push(Named { name, order, values });
     }
     all.sort_by(|a, b| a.name.cmp(&b.name).then(a.order.total_cmp(&b.order)));
+    if topic == topic::CONTACTS && !rule.is_exact() {
+        merge(&table.columns, &mut all);
+    }
     all
+}
+
+/// Contacts of one grain with one wall as one: which of two faces at a seam carries how much, and where, is a matter of rounding.
+fn merge(columns: &[String], all: &mut Vec<Named>) {
+    let summed = |k: usize| ["fx", "fy", "fz", "work"].contains(&columns[k].as_str());
+    for row in all.iter_mut().filter(|row| row.name.starts_with("wall contact")) {
+        (0..columns.len()).filter(|k| !summed(*k)).for_each(|k| row.values[k] = 0.0);
+    }
+    all.dedup_by(|next, kept| {
+        let one = next.name == kept.name && next.name.starts_with("wall contact");
+        if one {
+            kept.values.iter_mut().zip(&next.values).for_each(|(sum, x)| *sum += x);
+        }
+        one
+    });
 }
 
 /// A row seen from the other particle: its normal and force are reversed, its moments exchanged.

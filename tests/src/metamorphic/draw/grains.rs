@@ -13,7 +13,7 @@ impl Draw {
             self.clumps();
         }
         // A lattice that touches, or places at random, instead of files.
-        if !self.choices.clumps && self.chance(0.08) {
+        if self.chance(0.1) {
             self.fill();
         } else {
             self.files();
@@ -88,7 +88,8 @@ impl Draw {
             true => format!("materials = [\"{material}\"]"),
             false => format!("material = \"{material}\""),
         });
-        self.maybe(0.1, "units = \"m\"");
+        let factor = self.pick(&["units = \"m\"", "scale = 1.0"]);
+        self.maybe(0.2, factor);
         if !clusters && self.choices.bonded {
             self.maybe(0.2, "cluster = 3");
         }
@@ -159,36 +160,45 @@ impl Draw {
 
     fn fill(&mut self) {
         let (low, high) = (self.choices.low, self.high());
-        self.line(format!("[[fill]]\nmaterial = \"a\"\nshape = {{ box = {:?} }}", [low, high].concat()));
-        if self.chance(0.3) {
+        let clump = self.choices.clumps;
+        let what = if clump { "clump = \"pair\"" } else { "material = \"a\"" };
+        self.line(format!("[[fill]]\n{what}\nshape = {{ box = {:?} }}", [low, high].concat()));
+        if clump {
+            self.line("count = 4");
+            self.key(0.6, "scale", 0.8, 1.0);
+        } else if self.chance(0.3) {
             let lattice = self.pick(&["cubic", "hexagonal"]);
             self.line(format!("lattice = \"{lattice}\"\ndiameter = 0.0095"));
         } else {
-            match self.pick(&[0, 1, 2]) {
-                0 => self.line("diameter = 0.006"),
-                1 => self.line("diameter = [0.005, 0.008]"),
-                _ => {
-                    self.line("sizes = [[0.006, 0.5], [0.008, 0.5]]");
-                    let by = self.pick(&["mass", "number"]);
-                    self.maybe(0.5, format!("by = \"{by}\""));
-                }
-            }
-            let line = self.pick(&["count = 9", "count = 5", "mass = 0.002"]);
-            self.line(line);
-            self.maybe(0.3, "seed = 7");
+            self.fill_sizes();
         }
         let velocity = self.vector(0.4);
         self.maybe(0.7, format!("velocity = {velocity:?}"));
-        if self.choices.bonded {
-            self.maybe(0.3, "cluster = 2");
+        if self.choices.bonded && !clump {
+            self.maybe(0.7, "cluster = 2");
         }
+    }
+
+    fn fill_sizes(&mut self) {
+        match self.pick(&[0, 1, 2]) {
+            0 => self.line("diameter = 0.006"),
+            1 => self.line("diameter = [0.005, 0.008]"),
+            _ => {
+                self.line("sizes = [[0.006, 0.5], [0.008, 0.5]]");
+                let by = self.pick(&["mass", "number"]);
+                self.maybe(0.5, format!("by = \"{by}\""));
+            }
+        }
+        let line = self.pick(&["count = 9", "count = 5", "mass = 0.002"]);
+        self.line(line);
+        self.maybe(0.3, "seed = 7");
     }
 
     fn insertion(&mut self) {
         let (low, high) = (self.choices.low, self.high());
         let above =
             [low[0], low[1], digits(high[2] + 0.002, 9), high[0], high[1], digits(high[2] + 0.014, 9)];
-        let clump = self.choices.clumps && self.chance(0.4);
+        let clump = self.choices.clumps && self.chance(0.8);
         let what = if clump { "clump = \"pair\"" } else { "material = \"b\"" };
         self.line(format!("[[insert]]\n{what}\nshape = {{ box = {above:?} }}\nvelocity = [0.0, 0.0, -0.8]"));
         if clump {

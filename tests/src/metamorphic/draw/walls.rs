@@ -149,7 +149,8 @@ impl Draw {
         }
         let name = self.file("mesh", "ply", File::Mesh(vertices, triangles));
         self.head(&format!("mesh = \"{name}\""));
-        self.maybe(0.1, "units = \"m\"");
+        let factor = self.pick(&["units = \"m\"", "scale = 1.0"]);
+        self.maybe(0.2, factor);
         match self.pick(&[0, 1, 2, 3, 4, 5]) {
             0 | 1 => self.motion(face, false),
             2 => self.belt(face),
