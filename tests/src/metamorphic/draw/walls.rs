@@ -122,7 +122,7 @@ impl Draw {
         let [u, v] = self.corners(face, 0.5 * CELL);
         let cells = self.pick(&[1, 1, 2, 3, 4]);
         // A seam across the first axis behind the plane: a shallow valley.
-        let fold = if cells % 2 == 0 && self.chance(0.5) { self.between(0.0, 0.004) } else { 0.0 };
+        let fold = if cells.is_multiple_of(2) && self.chance(0.5) { self.between(0.0, 0.004) } else { 0.0 };
         let inward = face.inward(1.0)[face.axis];
         let mut vertices = Vec::new();
         for j in 0..=cells {

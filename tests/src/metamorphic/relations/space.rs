@@ -21,7 +21,7 @@ pub fn similarity(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
         scene.has_in_contacts(&["characteristic_velocity", "jkr"]) || scene.has(&["drag", "sleep", "outlet"]);
     let random_places = !is_placed(scene);
     let servos = scene.list("wall").any(|w| w.contains_key("servo") || w.contains_key("spring"));
-    if fixed || random_places || servos || scene.list("contact").any(|c| is_hooke_by_velocity(c)) {
+    if fixed || random_places || servos || scene.list("contact").any(is_hooke_by_velocity) {
         return None;
     }
     let mut of = |most: i32| random.random_range(-most..=most);

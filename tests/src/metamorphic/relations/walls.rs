@@ -46,11 +46,11 @@ fn ends(scene: &Scene) -> [[f64; 2]; 3] {
 fn rectangle(axis: usize, at: f64, u: [f64; 2], v: [f64; 2], strips: usize) -> File {
     let mut vertices = Vec::new();
     for k in 0..=strips {
-        for side in 0..2 {
+        for side in v {
             let mut p = [0.0; 3];
             p[axis] = at;
             p[(axis + 1) % 3] = u[0] + (u[1] - u[0]) * k as f64 / strips as f64;
-            p[(axis + 2) % 3] = v[side];
+            p[(axis + 2) % 3] = side;
             vertices.push(p);
         }
     }
