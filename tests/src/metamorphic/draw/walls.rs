@@ -120,7 +120,7 @@ impl Draw {
 
     fn mesh(&mut self, face: Face) {
         let [u, v] = self.corners(face, 0.5 * CELL);
-        let cells = self.pick(&[1, 1, 2, 3, 4]);
+        let cells: usize = self.pick(&[1, 1, 2, 3, 4]);
         // A seam across the first axis behind the plane: a shallow valley.
         let fold = if cells.is_multiple_of(2) && self.chance(0.5) { self.between(0.0, 0.004) } else { 0.0 };
         let inward = face.inward(1.0)[face.axis];
