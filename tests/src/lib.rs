@@ -5,8 +5,10 @@ extern crate self as grainpipe_tests;
 
 pub mod engines;
 pub mod findings;
+pub mod keys;
 pub mod lab;
 pub mod layout;
+pub mod metamorphic;
 pub mod normals;
 pub mod page;
 pub mod plots;

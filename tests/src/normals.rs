@@ -62,6 +62,8 @@ pub fn still(overlap: f64, radius: f64, curvature: f64) -> Contact<f64> {
         before: overlap,
         radius,
         smaller: if curvature > 0.0 { 0.5 / curvature } else { radius },
+        share: 1.0,
+        share_before: 1.0,
         curvature,
         mass: 0.01,
         inverse_mass: 100.0,

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! A list of motions is their composition: each acts on what the ones before it have moved, so that the axis of a turn is carried by
-//! the motions that follow. Every motion is the identity until it starts: there are no jumps.
+//! the motions that follow. The shift of a list is the way of one point of the wall, [`Motion::reference`]. Every motion is the identity until it starts: there are no jumps.
 
 mod path;
 mod pose;
@@ -129,6 +129,18 @@ impl Motion {
         self.parts().flat_map(of).filter(|axis| *axis != Vec3::zeros()).collect()
     }
 
+    /// Whether this motion by itself turns at any time.
+    fn turns(&self) -> bool {
+        let turned = |path: &Path| path.axis() != Vec3::zeros();
+        self.turn != Vec3::zeros() || self.swings() || self.path.as_ref().is_some_and(turned)
+    }
+
+    /// The point of the wall at t = 0 whose way is the shift [m]: the one that the axis of the first motion that turns goes through. Where nothing turns all
+    /// points go the same way.
+    pub fn reference(&self) -> Vec3 {
+        self.parts().find(|m| m.turns()).unwrap_or(self).through
+    }
+
     /// Whether `time` [s] is between the start and the end of any of its parts.
     pub fn runs(&self, time: f64) -> bool {
         self.parts().any(|m| m.acts() && m.runs_alone(time))
@@ -165,6 +177,7 @@ impl Motion {
     /// Pose at `time` [s].
     pub fn pose(&self, time: f64) -> Pose {
         let first = self.pose_alone(time);
+        let first = if self.turns() { first } else { first.about(self.reference()) };
         self.then.iter().fold(first, |pose, outer| pose.then(&outer.pose_alone(time)))
     }
 

@@ -14,7 +14,7 @@ use crate::process::{Engine, Place};
 use crate::refusal::{self, Allowed, Refusal};
 use dem::setup::Setup;
 use run::{Progress, RunError, RunFile, Schedule};
-use scene::keys::Sampling;
+use scene::keys::{Patches, Sampling};
 use scene::{Plan, Scene};
 use serde::Serialize;
 use std::io::Write;
@@ -60,9 +60,10 @@ pub struct Outcome {
     pub crossings: u64,
 }
 
-/// Makes a scene sample forces at instants, as LAMMPS does: the time step is chosen for that.
+/// Makes a scene sample forces at instants, and each contact act by itself, as LAMMPS does: the time step is chosen for that.
 pub fn sampled(scene: &mut Scene) {
     scene.keys.time.contacts = Sampling::Sampled;
+    scene.keys.time.patch = Patches::Plain;
 }
 
 /// A scene that is ready for LAMMPS.

@@ -12,6 +12,10 @@ pub struct ClumpRecord {
     /// Principal moments of inertia of density 1 [m⁵].
     #[serde(default)]
     pub inertia: [f64; 3],
+    /// Quaternion w, x, y, z that turns the principal axes from along x, y, z to where they are in the frame that the shape was given in; absent in
+    /// runs that do not tell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axes: Option<[f64; 4]>,
     /// Index of its material.
     #[serde(default)]
     pub material: u16,

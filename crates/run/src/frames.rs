@@ -127,6 +127,7 @@ pub(crate) fn clumps(clumps: &Clumps) -> Map {
         ClumpRecord {
             centre: s.centre.into(),
             inertia: s.inertia,
+            axes: Some([s.frame.w, s.frame.i, s.frame.j, s.frame.k]),
             material: s.material,
             name: s.name.clone(),
             scales: clumps.scales_of(k).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))),

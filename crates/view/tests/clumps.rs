@@ -80,6 +80,7 @@ fn cube(volume: f64) -> (Table, ClumpRecord) {
     let record = ClumpRecord {
         centre: [0.0; 3],
         inertia: [1.0; 3],
+        axes: None,
         material: 0,
         name: "cube".into(),
         scales: None,

@@ -8,7 +8,7 @@ use sampling::Method;
 use std::f64::consts::FRAC_PI_8;
 
 const EVEN: Case = of_walls(
-    "blue noise deflects grains less than rows do: upper end of the 95 % interval of its drift, from six walls, over the lower end \
+    "blue noise deflects grains less than rows do: upper end of the 95 % interval of its drift, from ten walls, over the lower end \
      of that of rows",
 );
 const ROWS: Case =
@@ -22,7 +22,7 @@ fn rows_lead_grains_aside_more_than_blue_noise() {
         found.mean - found.off
     });
     // One wall has patches that lead grains this way or that, and grains that start side by side run over the same ones.
-    let walls: Vec<Vec<Run>> = (1..=6).map(|seed| on(Layout::Sampled(Method::Poisson, seed))).collect();
+    let walls: Vec<Vec<Run>> = (1..=10).map(|seed| on(Layout::Sampled(Method::Poisson, seed))).collect();
     let blue = squared_drift(&walls);
     let highest = (blue.mean + blue.off).max(0.0).sqrt();
     EVEN.within("ζ/P = 0.1, 15°", highest / lowest[0].min(lowest[1]), "of that of rows", 1.0);

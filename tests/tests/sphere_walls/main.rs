@@ -6,6 +6,7 @@ mod grazing;
 mod heap;
 mod holding;
 mod passing;
+mod patches;
 mod rebound;
 
 use grainpipe_tests::findings::{Case, case};

@@ -41,18 +41,21 @@ fn dense_walls_make_no_energy() {
     MADE.within("hooke, e = 0.5, friction 0.3", most / thrown, "–", 0.01);
 }
 
-/// At an ordinary spacing it is one, and the step that of a single one.
+/// Each sphere by itself: at an ordinary spacing it is one, and the step that of a single one.
 #[test]
-fn only_dense_walls_shorten_the_step() {
+fn only_dense_walls_of_single_contacts_shorten_the_step() {
+    let plain = |spacing: f64| Setup { patches: false, ..floor(spacing) };
     let [single, ordinary, dense] =
-        [10.0 * R, R, 0.05 * R].map(|spacing| critical_step(&floor(spacing)).expect("laws for all pairs"));
+        [10.0 * R, R, 0.05 * R].map(|spacing| critical_step(&plain(spacing)).expect("laws for all pairs"));
     assert_eq!(single, ordinary);
     let cause = single.cause.to_string();
-    assert!(!cause.contains("at once"), "{cause}");
+    assert!(!cause.contains("as stiff as"), "{cause}");
     assert!(dense.dt < 0.2 * single.dt, "{} of {}", dense.dt, single.dt);
+    let shared = critical_step(&floor(0.05 * R)).expect("laws for all pairs");
+    assert_eq!(shared, critical_step(&floor(R)).expect("laws for all pairs"), "as one contact they do not");
     NAMED.refused(
         "a twentieth of a radius",
         &dense.cause.to_string(),
-        &["wall 'floor'", "of its spheres at once"],
+        &["wall 'floor'", "times as stiff as one of its spheres"],
     );
 }

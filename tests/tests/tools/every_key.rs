@@ -3,58 +3,13 @@
 
 mod scenes;
 
+use grainpipe_tests::keys::{Documented, documented};
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::line;
 use scenes::{FILES, FLAT, before, scenes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use toml::{Table, Value};
-
-/// A row of the page: where the key stands (`wall.motion`), its name, and its type.
-struct Documented {
-    table: String,
-    key: String,
-    kind: String,
-}
-
-/// The path of the table that a heading, or the first cell of a table, names.
-fn named(text: &str) -> Option<String> {
-    match text {
-        "Top level" => Some(String::new()),
-        "Contacts" => Some("contact".to_owned()),
-        "Bonds" => Some("bond".to_owned()),
-        "`strain.x`" => Some("domain.strain.x".to_owned()),
-        "`motion`" | "`servo`" | "`spring`" => Some(format!("wall.{}", text.trim_matches('`'))),
-        _ => text.strip_prefix("`[").map(|name| name.trim_matches(['[', ']', '`']).to_owned()),
-    }
-}
-
-/// The rows of the tables of keys.
-fn documented() -> Vec<Documented> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scene.md");
-    let text = std::fs::read_to_string(path).expect("the page");
-    let (mut heading, mut table, mut column, mut rows) = (None, None, 1, Vec::new());
-    for row in text.lines() {
-        if let Some(title) = row.strip_prefix("## ") {
-            heading = named(title);
-        }
-        let cells: Vec<&str> = row.trim_matches('|').split(" | ").map(str::trim).collect();
-        match cells[0] {
-            _ if !row.starts_with("| ") => table = table.filter(|_| row.starts_with('|')),
-            "key" => table = heading.clone(),
-            head if head.starts_with("key of ") => table = named(&head["key of ".len()..]),
-            key => {
-                let Some(table) = table.clone() else { continue };
-                let key = key.trim_matches('`').to_owned();
-                rows.push(Documented { table, key, kind: cells[column].to_owned() });
-                continue;
-            }
-        }
-        // The table of contacts has the unit before the values.
-        column = 1 + usize::from(cells.get(1) == Some(&"unit"));
-    }
-    rows
-}
 
 /// Every value in the scenes, by the dotted key without indices.
 fn values() -> BTreeMap<String, Vec<Value>> {
@@ -109,8 +64,8 @@ fn every_key_stands_in_a_scene_in_each_form() {
     let (rows, values) = (documented(), values());
     assert!(rows.len() > 120, "{} rows", rows.len());
     let wrong = |row: &Documented| {
-        let key = format!("{}.{}", row.table, row.key);
-        let found = values.get(key.trim_start_matches('.')).map_or(&[][..], |found| found);
+        let key = row.path();
+        let found = values.get(&key).map_or(&[][..], |found| found);
         let missing = missing(&row.kind, found);
         (!missing.is_empty()).then(|| format!("{key}: {}", missing.join(", ")))
     };

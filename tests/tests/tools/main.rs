@@ -3,6 +3,7 @@
 mod bad_inputs;
 mod calibrate;
 mod chain;
+mod clump_runs;
 mod clump_scenes;
 mod contact_numbers;
 mod cost;
@@ -30,6 +31,7 @@ mod real_clouds;
 mod rock_fill;
 mod scans;
 mod scene;
+mod settled_bed;
 mod sinter_box;
 mod stage_variants;
 mod streams;

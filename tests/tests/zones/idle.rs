@@ -97,3 +97,47 @@ fn a_servo_does_not_feel_who_travels() {
     assert!(travels && (floor.force.z / -0.15 - 1.0).abs() < 1e-2, "{floor:?}");
     assert!(rest.is_some_and(|z| (z - 0.01 - floor.shift.z).abs() < 1e-4), "{rest:?}");
 }
+
+/// A grain comes in half sunk into a wall of each kind, slides along it and becomes free there: on its way the ledger has nothing of it, and when it
+/// is free what the wall's spring holds has come in with it.
+#[test]
+fn what_comes_in_through_a_wall_is_booked_when_it_acts() {
+    let s = 0.5;
+    let corners = [[-s, -s, 0.0], [s, -s, 0.0], [s, s, 0.0], [-s, s, 0.0]].map(Vec3::from).to_vec();
+    let mesh = geom::mesh::TriMesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).expect("sound");
+    let spheres = (0..60).map(|k| (Vec3::new(0.004 * f64::from(k) - 0.1, 0.0, -0.5), 0.5)).collect();
+    for shape in [plane(Vec3::z()).shape, WallShape::Mesh(mesh), WallShape::Spheres(spheres)] {
+        let mut setup = slide();
+        setup.walls[0].shape = shape;
+        (setup.outlets, setup.particles, setup.gravity) = (vec![], vec![], Vec3::zeros());
+        setup.guards.overlap = 0.9;
+        setup.inlets = vec![zone(0.05, 0.03)];
+        (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
+        let wall = format!("{:?}", std::mem::discriminant(&setup.walls[0].shape));
+        let mut sim = Simulation::new(setup).expect("sound");
+        let depth = 0.004;
+        let start = Particle { velocity: Vec3::x(), ..grain(0, Vec3::new(0.02, 0.0, 0.01 - depth)) };
+        sim.enter(Entry { time: 1e-5, inlet: 0, particle: start, clump: None, turn: None, cluster: 0 })
+            .expect("announced");
+        while sim.time() < 0.029 {
+            sim.step().expect("no guard checks grains of a zone");
+            let e = sim.energy().expect("ready");
+            let all = [e.elastic, e.entered, e.left, e.normal, e.sliding, e.integration, e.balance()];
+            assert!(all.iter().all(|x| x.abs() < 1e-15), "wall {wall}, {} s: {e:?}", sim.time());
+        }
+        while sim.time() < 0.033 {
+            sim.step().expect("within the guards");
+        }
+        let e = sim.energy().expect("ready");
+        // Its tangential spring holds μ F_n, with k_t/k_n = 2(1 − ν)/(2 − ν).
+        let tangential = 0.25 * 1.75 / 1.5;
+        let (moves, holds) = (0.5 * dem::mass(0.01, 2500.0), 0.5 * 1e4 * depth * depth * (1.0 + tangential));
+        assert!((e.entered / (moves + holds) - 1.0).abs() < 0.05, "wall {wall}: {} J came in", e.entered);
+        assert!(
+            e.integration.abs() < 1e-3 * holds,
+            "wall {wall}: the step made {} J of {holds} J",
+            e.integration
+        );
+        assert!(e.balance().abs() < 1e-12, "wall {wall}: {} J", e.balance());
+    }
+}

@@ -34,7 +34,7 @@ pub const KERNELS: [Kernel; 5] = [
     kernel("friction", [356.0, 128.0, 32.0], [186.0, 2.0, 3.0]),
     kernel("rolling", [356.0, 208.0, 48.0], [291.0, 3.0, 4.0]),
     kernel("twisting", [356.0, 224.0, 48.0], [320.0, 4.0, 5.0]),
-    kernel("cohesion", [356.0, 224.0, 48.0], [334.0, 5.0, 5.0]),
+    kernel("cohesion", [356.0, 224.0, 48.0], [335.0, 5.0, 5.0]),
 ];
 
 /// A bond with moments, dashpots and the stresses of both ends; `dem-run --report` has its bytes.

@@ -72,6 +72,7 @@ impl Fixed {
                 between: [u32::from(kind.between.0), u32::from(kind.between.1)],
                 class: classes,
                 columns: columns as u32,
+                patch: kind.patch.filter(|p| p.shared).map_or(0, |p| 1 + u32::from(p.hertz)),
                 flips: (0..columns).map(|c| u32::from(kind.kernel.flips(c)) << c).sum(),
                 ..DeviceKind::default()
             };

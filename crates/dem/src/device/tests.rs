@@ -259,6 +259,36 @@ fn the_same_lists() {
     }
 }
 
+/// One grain of the trough rolls down its left plane, through the faces of the box.
+fn rolling(periodic: bool) -> Setup {
+    let mut setup = trough(every_composition()[2]);
+    setup.walls.truncate(2);
+    setup.walls.remove(0);
+    setup.gravity = Vec3::new(-9.81, 2.0, 0.0);
+    setup.periodic[1] = setup.periodic[1].filter(|_| periodic);
+    setup.particles.truncate(1);
+    let normal = Vec3::new(1.0, 0.0, 0.1).normalize();
+    setup.particles[0].position = normal * 0.005_995 + Vec3::y() * 0.198;
+    setup.particles[0].velocity = Vec3::y();
+    setup
+}
+
+/// A contact with a plane keeps its springs through a periodic face, along which the plane has no images.
+#[test]
+fn the_same_springs_through_a_periodic_face() {
+    let open = bits(&mut here(rolling(false), 1000));
+    let mut sim = there(rolling(true), Local::default());
+    advance(&mut sim, 1000).expect("within the guards");
+    let across = bits(&mut sim);
+    assert!(across == bits(&mut here(rolling(true), 1000)));
+    let number = |bits: &[u64], k: usize| f64::from_bits(bits[k]);
+    assert!(number(&across, 1) < 0.19 && number(&open, 1) > 0.2, "it went through the face");
+    for k in 3..9 {
+        let (a, b) = (number(&open, k), number(&across, k));
+        assert!((a - b).abs() < 1e-9 * (1.0 + a.abs()), "column {k}: {a} without a face, {b} through it");
+    }
+}
+
 /// Observing makes a step here; a checkpoint goes on here as well as there.
 #[test]
 fn the_same_bits_where_it_is_watched_and_resumed() {

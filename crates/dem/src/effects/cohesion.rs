@@ -68,7 +68,7 @@ impl Effect for Cohesion {
         let square =
             delta * (number(4.0) * contact.radius - number(2.0) * delta + inner) * (number(2.0) - share)
                 / (number(4.0) * rest * rest);
-        response.normal = response.normal - number(self.energy_density * PI) * square;
+        response.normal = response.normal - number(self.energy_density * PI) * square * contact.share;
         let delta = contact.present.max(number(0.0));
         let share = delta * contact.curvature;
         let rest = number(1.0) - share;
@@ -76,6 +76,6 @@ impl Effect for Cohesion {
         let volume =
             number(PI / 12.0) * delta * delta * (number(12.0) * contact.radius - number(4.0) * delta + inner)
                 / rest;
-        response.elastic = response.elastic - number(self.energy_density) * volume;
+        response.elastic = response.elastic - number(self.energy_density) * volume * contact.share;
     }
 }

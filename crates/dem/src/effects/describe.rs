@@ -148,6 +148,8 @@ pub struct NormalLaw {
     /// Overlap of two particles that bear no load under a pull of this energy density [J/m³] × the area of contact, over the smaller
     /// radius [–], for radii from the first to the second [m]; infinite where the pull wins.
     pub unloaded_overlap: fn(&ContactLaw, Elastic, f64, [f64; 2]) -> f64,
+    /// Whether S grows as √δ, as between elastic spheres; else it is constant.
+    pub stiffens: bool,
 }
 
 /// Σ n nᵀ of the twelve contacts of a close packing [–].

@@ -23,7 +23,13 @@ pub const DESCRIPTION: Description = Description {
     model: Some(Model { key: "law", value: "hertz", default: true }),
     keys: &[RESTITUTION],
     every_precision: true,
-    normal: Some(NormalLaw { stiffest, reach: |_, _, _| 0.0, nominal: |_| 1.0, unloaded_overlap }),
+    normal: Some(NormalLaw {
+        stiffest,
+        reach: |_, _, _| 0.0,
+        nominal: |_| 1.0,
+        unloaded_overlap,
+        stiffens: true,
+    }),
     ..Description::PLAIN
 };
 
@@ -61,7 +67,8 @@ impl Effect for Hertz {
     #[inline(always)]
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), response: &mut Response<R>) {
         let overlap = contact.overlap.max(R::splat(0.0));
-        let s = R::splat(2.0 * self.modulus) * (contact.radius * overlap).sqrt();
+        let modulus = R::splat(2.0 * self.modulus) * contact.share;
+        let s = modulus * (contact.radius * overlap).sqrt();
         response.impedance = (s * contact.mass).sqrt();
         let pace = s * contact.inverse_mass;
         let c = self.damping.of(pace, contact.partial) * response.impedance;
@@ -72,11 +79,11 @@ impl Effect for Hertz {
         response.stiffness = s;
         // S ∝ √δ.
         let before = contact.before.max(R::splat(0.0));
-        response.stiffness_last = R::splat(2.0 * self.modulus) * (contact.radius * before).sqrt();
-        response.stiffness_before = (before / overlap.max(R::splat(R::TINY))).sqrt();
+        response.stiffness_last = modulus * contact.share_before * (contact.radius * before).sqrt();
+        response.stiffness_before = contact.share_before * (before / overlap.max(R::splat(R::TINY))).sqrt();
         let present = contact.present.max(R::splat(0.0));
         let root = (contact.radius * present).sqrt();
-        let spring = R::splat(2.0 / 3.0) * (R::splat(2.0 * self.modulus) * root) * present;
+        let spring = R::splat(2.0 / 3.0) * (modulus * root) * present;
         response.elastic = response.elastic + R::splat(0.4) * spring * present;
         response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt * self.damping.dissipates(pace));
     }

@@ -32,7 +32,7 @@ pub const STIFFNESS: Key = Key {
     range: Range::Positive,
     required: true,
     example: "1e5",
-    doc: "k_n; instead `characteristic_velocity` [m/s]: the speed at which two of the largest grains store as much as with \"hertz\" (default 1)",
+    doc: "k_n; instead `characteristic_velocity` [m/s]: the speed at which two of the largest grains store as much as with \"hertz\"",
 };
 /// k_t/k of linear laws.
 pub const TANGENTIAL_RATIO: Key = Key {
@@ -74,7 +74,13 @@ pub const DESCRIPTION: Description = Description {
     picked: |law| !(hooke_direct::DESCRIPTION.picked)(law),
     contradiction,
     every_precision: true,
-    normal: Some(NormalLaw { stiffest, reach: |_, _, _| 0.0, nominal: |_| 1.0, unloaded_overlap }),
+    normal: Some(NormalLaw {
+        stiffest,
+        reach: |_, _, _| 0.0,
+        nominal: |_| 1.0,
+        unloaded_overlap,
+        stiffens: false,
+    }),
     ..Description::PLAIN
 };
 
@@ -110,7 +116,7 @@ impl Effect for Hooke {
 
     #[inline(always)]
     fn apply<R: Lane>(&self, contact: &Contact<R>, dt: R, _: &mut (), response: &mut Response<R>) {
-        let k = R::splat(self.stiffness);
+        let k = R::splat(self.stiffness) * contact.share;
         response.impedance = (k * contact.mass).sqrt();
         let pace = k * contact.inverse_mass;
         let c = self.damping.of(pace, contact.partial) * response.impedance;
@@ -131,8 +137,8 @@ pub fn spring_and_dashpot<R: Lane>(
     response.normal = response.normal + (k * contact.overlap + damping);
     response.pressing = response.normal;
     response.stiffness = k;
-    response.stiffness_before = R::splat(1.0);
-    response.stiffness_last = k;
+    response.stiffness_before = contact.share_before;
+    response.stiffness_last = k * contact.share_before;
     response.elastic = response.elastic + R::splat(0.5) * k * contact.present * contact.present;
     response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt * dissipates);
 }

@@ -64,7 +64,13 @@ pub const DESCRIPTION: Description = Description {
     picked: |law| by_modulus(law) || law.number(NORMAL_DAMPING.name).is_some(),
     contradiction,
     every_precision: false,
-    normal: Some(NormalLaw { stiffest, reach: |_, _, _| 0.0, nominal: |_| 1.0, unloaded_overlap }),
+    normal: Some(NormalLaw {
+        stiffest,
+        reach: |_, _, _| 0.0,
+        nominal: |_| 1.0,
+        unloaded_overlap,
+        stiffens: false,
+    }),
     ..hooke::DESCRIPTION
 };
 
@@ -160,6 +166,7 @@ impl Effect for HookeDirect {
         let length = R::select(round, length, R::splat(4.0) * smaller);
         let thick = smaller * R::select(round, smaller * contact.curvature, R::splat(1.0));
         let k = R::splat(constant) + R::splat(2.0 * by_length) * length + R::splat(PI * effective) * thick;
+        let k = k * contact.share;
         response.impedance = (k * contact.mass).sqrt();
         let pace = k * contact.inverse_mass;
         let of_ratio = self.damping.of(pace, contact.partial) * response.impedance;

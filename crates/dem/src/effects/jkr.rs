@@ -54,7 +54,7 @@ pub const DESCRIPTION: Description = Description {
     excludes: Some((Slot::Cohesion, "law = \"jkr\" adheres by itself")),
     idle: |law| law.number("work_of_adhesion") == Some(0.0),
     instead: Some("hertz"),
-    normal: Some(NormalLaw { stiffest, reach, nominal: |_| 1.0, unloaded_overlap }),
+    normal: Some(NormalLaw { stiffest, reach, nominal: |_| 1.0, unloaded_overlap, stiffens: true }),
     ..Description::PLAIN
 };
 
@@ -154,9 +154,9 @@ impl Effect for Jkr {
         let last = *made;
         let y = Self::spread(contact.overlap, r, last);
         let cube = y * y * y;
-        let pull = number(PI * self.work_of_adhesion) * r;
+        let pull = number(PI * self.work_of_adhesion) * r * contact.share;
         let elastic = pull * cube * (cube / number(6.0) - number(1.0));
-        let s = number(2.0 * self.modulus) * last * y * y;
+        let s = number(2.0 * self.modulus) * last * y * y * contact.share;
         response.impedance = (s * contact.mass).sqrt();
         let pace = s * contact.inverse_mass;
         let c = self.damping.of(pace, contact.partial) * response.impedance;
@@ -165,8 +165,8 @@ impl Effect for Jkr {
         response.pressing = response.normal + number(3.0) * pull;
         response.stiffness = s;
         let before = Self::spread(contact.before, r, last);
-        response.stiffness_before = before * before / (y * y);
-        let unit = number(4.0 * PI * self.work_of_adhesion) * last * last;
+        response.stiffness_before = contact.share_before * before * before / (y * y);
+        let unit = number(4.0 * PI * self.work_of_adhesion) * last * last * contact.share;
         let held = Self::spread(contact.present, r, last);
         let cube = held * held * held;
         let stored =

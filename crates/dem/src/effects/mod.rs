@@ -79,6 +79,10 @@ pub struct Contact<R: Lane> {
     pub radius: R,
     /// The smaller radius [m].
     pub smaller: R,
+    /// Share of the stiffness of a contact alone, where a grain touches several spheres of a wall ([`crate::kernel::patch`]); else 1 [–].
+    pub share: R,
+    /// The same a step ago, over the one now [–].
+    pub share_before: R,
     /// 1/(r_i + r_j), 0 at a flat wall [1/m].
     pub curvature: R,
     /// m* [kg].

@@ -42,6 +42,7 @@ pub const DESCRIPTION: Description = Description {
         reach: |_, _, _| 0.0,
         nominal: |law| law.number("stiffness").unwrap_or(f64::NAN) / unloading(law),
         unloaded_overlap,
+        stiffens: false,
     }),
     ..Description::PLAIN
 };
@@ -80,15 +81,16 @@ impl Effect for WaltonBraun {
         let yielded = number(1.0 - self.loading / self.unloading);
         let spring = (contact.overlap - yielded * *deepest).max(number(0.0));
         let held = (contact.present - yielded * *deepest).max(number(0.0));
-        let force = number(self.unloading) * spring;
+        let unloading = number(self.unloading) * contact.share;
+        let force = unloading * spring;
         response.normal = response.normal + force;
         response.pressing = response.normal;
-        response.stiffness = number(self.unloading);
-        response.stiffness_before = number(1.0);
-        response.stiffness_last = response.stiffness;
+        response.stiffness = unloading;
+        response.stiffness_before = contact.share_before;
+        response.stiffness_last = unloading * contact.share_before;
         response.impedance = (response.stiffness * contact.mass).sqrt();
-        response.elastic = response.elastic + number(0.5) * number(self.unloading) * held * held;
-        let plastic = number(0.5 * self.loading) * yielded;
+        response.elastic = response.elastic + number(0.5) * unloading * held * held;
+        let plastic = number(0.5 * self.loading) * yielded * contact.share;
         response.lost = response.lost + plastic * (*deepest * *deepest - before * before);
     }
 }

@@ -5,6 +5,7 @@
 //! A tile's contacts are with its own particles and with those of later tiles. So one thread can take both halves of a tile at once: each
 //! tile that reads its particles comes before it, and what it computes is in the cache when it moves.
 
+use crate::forces::clump_patches;
 use crate::forces::tile::TileInputs;
 use crate::kernel::{MoveFlags, StepInputs, Sums, WrenchSlices};
 use crate::model::Model;
@@ -30,6 +31,7 @@ pub struct StepFlags {
 
 /// Forces of this instant; the wrench of each contact is kept for observers.
 pub fn forces(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> StepFlags {
+    find_clump_patches(model, state, lists);
     let deep = compute(model, state, lists, true);
     let moved = finish(model, state, lists, Second::ARRIVALS);
     StepFlags { deep, moved }
@@ -41,6 +43,7 @@ pub fn forces_and_move(model: &Model, state: &mut State, lists: &mut NeighbourLi
         let moved = finish(model, state, lists, Second::MOVE);
         return StepFlags { deep: Vec::new(), moved };
     }
+    find_clump_patches(model, state, lists);
     if is_sequential(state) {
         return step_tile_by_tile(model, state, lists);
     }
@@ -66,10 +69,21 @@ pub fn sum_kept(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
 
 /// Contact points of images and walls, without forces.
 pub fn find_contact_points(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    lists.step.pointed = false;
     for_each_tile(model, state, lists, |slice, _, inputs, _| {
         slice.segments.iter().for_each(|s| slice.find_contact_points(s, inputs));
         false
     });
+}
+
+/// Contact points and patches of this instant, where there are clumps: what a contact of a clump moves depends on contacts in other tiles.
+fn find_clump_patches(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    lists.step.pointed = false;
+    if model.setup.patches && !state.clumps.none() {
+        find_contact_points(model, state, lists);
+        clump_patches::find(model, state, lists);
+        lists.step.pointed = true;
+    }
 }
 
 /// Forces of all contacts, and their sums within tiles; the segments in which an overlap passes its limit. `observed`: the wrench of each
@@ -154,7 +168,7 @@ fn for_each_tile(
 ) -> Vec<Range<usize>> {
     let (poses, cell) = (poses(model, state, lists), state.cell(model));
     let State { particles, sleepers, contacts, .. } = state;
-    let (layout, many) = (contacts.layout, particles.len() >= FEW);
+    let (layout, many, pointed) = (contacts.layout, particles.len() >= FEW, lists.step.pointed);
     let Computed { slots, mut slice, mut sums, resting_tiles } = lists.with(contacts);
     let inputs = TileInputs {
         lists: slots,
@@ -163,6 +177,7 @@ fn for_each_tile(
         cell,
         lengths: cell.lengths(),
         step: step_inputs(model, particles, layout),
+        pointed,
         sleepers: sleepers.as_ref().map(Sleepers::map),
     };
     let mut images = slice.split_off(slots.tiles[0]);
@@ -196,13 +211,14 @@ fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourList
     let (poses, cell) = (poses(model, state, lists), state.cell(model));
     let lengths = cell.lengths();
     let State { particles, bonds, contacts, .. } = state;
-    let layout = contacts.layout;
+    let (layout, pointed) = (contacts.layout, lists.step.pointed);
     let Computed { slots: shared, mut slice, mut sums, .. } = lists.with(contacts);
     let mut found = StepFlags::default();
     let second = SecondHalf { model, bonds, lists: shared, does: Second::BOTH, stirred: None };
     let forces = |segments: Range<usize>, particles: &Particles, slice: &mut TileSlice, sums: &mut Sums| {
         let step = step_inputs(model, particles, layout);
-        let inputs = TileInputs { lists: shared, model, poses: &poses, cell, lengths, step, sleepers: None };
+        let inputs =
+            TileInputs { lists: shared, model, poses: &poses, cell, lengths, step, pointed, sleepers: None };
         forces_of_tile(slice, segments.clone(), &inputs, sums).then_some(segments)
     };
     found.deep.extend(forces(0..shared.tiles[0], particles, &mut slice, &mut Sums::default()));

@@ -1,5 +1,6 @@
 //! Tiles of the lists, with what is computed for them: what a thread works on.
 
+use crate::kernel::patch::PATCH;
 use crate::kernel::wrenches::{rows, rows_mut};
 use crate::kernel::{Batch, LEDGER, Pairs, StepInputs, Sums};
 use crate::model::{Model, With};
@@ -26,6 +27,8 @@ pub struct TileInputs<'a> {
     pub lengths: Vec3,
     /// What all contacts share.
     pub step: StepInputs<'a>,
+    /// Whether contact points and patches are those of this instant.
+    pub pointed: bool,
     /// Which particles sleep, where the scene asks for it.
     pub sleepers: Option<SleepMap<'a>>,
 }
@@ -89,6 +92,12 @@ impl TileSlice<'_> {
             With::Particles => ((inputs.step.rows, inputs.step.spins), &lists.partner[slots.clone()]),
             _ => ((&self.rows[row..row + n], rows(self.spins, row, n)), &lists.count[..n]),
         };
+        let patch = if s.patches {
+            let from = s.patch - self.from.patch + within * PATCH;
+            &self.patch[from..from + n * PATCH]
+        } else {
+            &[]
+        };
         let (kept, kept_n) = if s.keeps() { (s.kept - self.from.kept + within, n) } else { (0, 0) };
         let batch = Batch {
             partners,
@@ -99,6 +108,7 @@ impl TileSlice<'_> {
             sums: sums.by_ref(),
             both: s.both(),
             kept: self.kept.rows_mut(kept, kept_n, self.layout),
+            patch,
             each: self.each.rows_mut(first, n, self.layout),
             ledger: rows_mut(self.ledger, first * LEDGER, n * LEDGER),
         };
@@ -107,6 +117,9 @@ impl TileSlice<'_> {
 
     /// Finds the contact points of images and walls as they are now.
     pub fn find_contact_points(&mut self, s: &Segment, inputs: &TileInputs) {
+        if inputs.pointed {
+            return;
+        }
         match s.with {
             With::Images => self.shift_images(s, inputs),
             With::Wall(w) if inputs.lists.new || inputs.model.walls[w].refreshes() => {
@@ -114,6 +127,7 @@ impl TileSlice<'_> {
             }
             With::Wall(_) | With::Particles => {}
         }
+        self.find_patches(s, inputs);
     }
 
     /// Copies rows and spins of particles to their images, shifted.

@@ -4,6 +4,7 @@
 //! operation and takes several times as long.
 
 use super::averaged::{average, size};
+use super::patch::PATCH;
 use super::{Batch, LEDGER, LOST, STIFFNESS, StepInputs, WrenchBuffer};
 use crate::effects::{Contact, DISSIPATORS, Effect, History, Response};
 use crate::simd::{BLOCK, FORCE, FORCE_AND_MOMENT, Indices, Lane, Number, Row, Row4, V, fetch};
@@ -80,6 +81,9 @@ pub fn act<R: Lane, E: Effect, T: Number, const KEEP: bool>(
 ) -> (bool, bool) {
     let at = block * BLOCK + lane;
     let mut found = geometry::<R, E>(step, batch, ends);
+    if !batch.patch.is_empty() {
+        share::<R>(&mut found.contact, &batch.patch[block * PATCH * BLOCK..][lane..]);
+    }
     let words = E::HISTORY.div_ceil(T::IN_A_WORD) * BLOCK;
     let stored = T::of_mut(&mut batch.history[block * words..(block + 1) * words]);
     let mut history = <E::History<R> as History<R>>::load(stored, lane);
@@ -233,6 +237,8 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         before: overlap + along * R::splat(step.dt),
         radius: R::select(round, ri * rj * inverse_reach, ri),
         smaller: R::select(round, ri.min(rj), ri),
+        share: R::splat(1.0),
+        share_before: R::splat(1.0),
         curvature: R::select(round, inverse_reach, zero),
         mass: inverse * both,
         inverse_mass,
@@ -245,6 +251,17 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         turn,
     };
     Geometry { contact, reach, share, surface, spin_j }
+}
+
+/// Part of a patch, from its numbers in columns of a block.
+#[inline(always)]
+fn share<R: Lane>(contact: &mut Contact<R>, patch: &[f64]) {
+    contact.share = R::load(patch);
+    contact.share_before = R::load(&patch[BLOCK..]);
+    let mass = R::load(&patch[2 * BLOCK..]);
+    contact.mass = contact.mass * mass;
+    contact.inertia = contact.inertia * mass;
+    contact.inverse_mass = contact.inverse_mass * R::load(&patch[3 * BLOCK..]);
 }
 
 /// Adds force, moment and torque to both ends, and keeps them where they are wanted; the force [N].

@@ -39,8 +39,8 @@ pub struct DeviceKind {
     pub columns: u32,
     /// Which of these take the opposite sign when the two particles are exchanged, by bits.
     pub flips: u32,
-    /// Nothing.
-    pub pad: u32,
+    /// How contacts with spheres of a wall share it: 0: each by itself; 1: u ∝ δ²; 2: u ∝ δ^(5/2).
+    pub patch: u32,
     /// Point and normal of a plane, as at t = 0.
     pub plane: [[f64; 3]; 2],
 }

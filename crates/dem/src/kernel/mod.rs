@@ -9,6 +9,7 @@ pub(crate) mod contact_loop;
 pub mod device_tables;
 pub mod lists;
 pub(crate) mod motion;
+pub(crate) mod patch;
 pub mod ported;
 pub(crate) mod sums;
 pub mod thread;
@@ -69,6 +70,8 @@ pub struct Batch<'a> {
     pub both: bool,
     /// Where wrenches are kept for other tiles; or empty.
     pub kept: WrenchSlicesMut<'a>,
+    /// [`patch::PATCH`] numbers of each contact, by block and column; empty where all act by themselves.
+    pub patch: &'a [f64],
     /// Where the wrench of each contact is kept, for observers; or empty.
     pub each: WrenchSlicesMut<'a>,
     /// Ledger, [`LEDGER`] numbers a contact; empty when it is not kept.

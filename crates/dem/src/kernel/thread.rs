@@ -13,6 +13,7 @@ use crate::kernel::contact_loop::{act, gather};
 use crate::kernel::device_tables::{
     DeviceBlock, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PLANE, SPHERES,
 };
+use crate::kernel::patch::{ALONE, Bodies, Instant, PATCH, Patch, PatchLaw, Touch};
 use crate::kernel::sums::{Sum, WrenchSums, add, add_opposite};
 use crate::kernel::wall_point::WallPose;
 use crate::kernel::{
@@ -48,6 +49,11 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
         let rows: &[Row] = t.table(t.particles.rows, t.particle_count + 2);
         let spins: &[Row4] =
             t.table(t.particles.spins, if layout.rotates { t.particle_count + 2 } else { 0 });
+        let mut patch = [1.0; PATCH * BLOCK];
+        if kind.patch > 0 {
+            let numbers = share(t, step, kind, (block.kind, i), slot, E::HISTORY > 0);
+            numbers.iter().enumerate().for_each(|(c, number)| patch[c * BLOCK] = *number);
+        }
         let (row, spin) = partner(
             t,
             step,
@@ -70,6 +76,7 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
             sums: Sums::default(),
             both: false,
             kept: WrenchSlicesMut::default(),
+            patch: if kind.patch > 0 { &patch } else { &[] },
             each: WrenchSlicesMut { forces: &mut forces, torques: torques_of },
             ledger: &mut [],
         };
@@ -107,6 +114,48 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
             t.flag(3, 1);
             t.flag(0, step + 1);
         }
+    }
+}
+
+/// What part the contact in a slot, of particle `i` and a kind of this number, has in its patch of wall spheres.
+///
+/// # Safety
+/// Tables are in place.
+#[inline(always)]
+unsafe fn share(
+    t: &DeviceTables,
+    step: u32,
+    kind: &DeviceKind,
+    (number, i): (u32, u32),
+    slot: usize,
+    remembers: bool,
+) -> [f64; PATCH] {
+    // SAFETY: by contract.
+    unsafe {
+        let block = |slot: usize| *t.contacts.blocks.at::<DeviceBlock>(slot / BLOCK);
+        let same = |slot: usize| *t.contacts.i.at::<u32>(slot) == i && block(slot).kind == number;
+        let (mut from, mut to) = (slot, slot + 1);
+        while from > 0 && same(from - 1) {
+            from -= 1;
+        }
+        while to < t.slot_count as usize && same(to) {
+            to += 1;
+        }
+        let row: Row = *t.particles.rows.at(i as usize);
+        let touch = |k: usize| {
+            let at = from + k;
+            let point = block(at).point as usize + at % BLOCK;
+            let (other, _) = partner(t, step, kind, &row, *t.contacts.partner.at(at), point);
+            Touch::of([t.drive.dt, t.drive.ahead], &row, &other, 0.0)
+        };
+        let law = PatchLaw { shared: true, hertz: kind.patch > 1, gap: 0.0 };
+        let Some(patch) = Patch::of(law, to - from, touch) else { return ALONE };
+        let bodies = Bodies { inverse_mass: row[7], direction: Vec3::zeros(), wall: 0.0 };
+        let push = patch.push(|k| patch.share(k, Instant::Now));
+        patch.numbers(slot - from, &push, &bodies, |k| {
+            let now = patch.share(k, Instant::Now);
+            [now, if remembers { patch.share(k, Instant::Before) } else { now }]
+        })
     }
 }
 

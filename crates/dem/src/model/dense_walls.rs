@@ -7,6 +7,8 @@
 //! Spheres of a wall may lie within each other. Of spheres P apart on a plane N ≈ 2π R* δ/P²; each is a spring, and all push one way, Σ n nᵀ = N. A close
 //! packing has 4. A grain pressed by the whole of δ into such a wall would touch more of them, up to (r + R)/R* times as many, the outermost lightly: N is that of an
 //! overlap of δ R*/(r + R), a quarter of the limit for equal radii.
+//!
+//! Where the spheres of a wall act as one contact ([`crate::kernel::patch`]), N that are pressed alike are N^¼ times as stiff as one.
 
 use crate::effects::ALONG;
 use crate::setup::{Setup, Wall, WallShape};
@@ -40,25 +42,30 @@ pub struct DenseWalls<'a> {
 impl<'a> DenseWalls<'a> {
     /// Of grains up to this radius [m]: the larger, the more push it.
     pub fn new(setup: &'a Setup, largest: f64) -> DenseWalls<'a> {
-        let most = setup.walls.iter().map(|wall| density_on(wall, largest, setup.guards.overlap));
+        let most = setup.walls.iter().map(|wall| density_on(setup, wall, largest));
         DenseWalls { setup, largest, most: most.collect() }
     }
 
     /// How many times the four of a close packing push a sphere of radius `r` [m] one way on wall `w`; no fewer than once.
     pub fn on(&self, w: usize, r: f64) -> f64 {
-        let Setup { walls, guards, .. } = self.setup;
         let known = self.most[w] == 1.0 || r >= self.largest;
-        if known { self.most[w] } else { density_on(&walls[w], r, guards.overlap) }
+        if known { self.most[w] } else { density_on(self.setup, &self.setup.walls[w], r) }
     }
 }
 
-/// How many times the four of a close packing push a sphere of radius `r` [m] one way on a wall, up to an overlap that is such a share
-/// of the smaller radius; no fewer than once.
-fn density_on(wall: &Wall, r: f64, overlap: f64) -> f64 {
-    let WallShape::Spheres(spheres) = &wall.shape else { return 1.0 };
+/// How many times the four of a close packing push a sphere of radius `r` [m] one way on a wall, up to the overlap at which guards stop a run; no fewer than once.
+fn density_on(setup: &Setup, wall: &Wall, r: f64) -> f64 {
+    let count = most_on(wall, r, setup.guards.overlap) as f64;
+    let stiffness = if setup.patches { count.sqrt().sqrt() } else { count };
+    (stiffness / ALONG).max(1.0)
+}
+
+/// N of a sphere of radius `r` [m] on a wall, up to an overlap that is such a share of the smaller radius; 1 on walls of other kinds.
+fn most_on(wall: &Wall, r: f64, overlap: f64) -> usize {
+    let WallShape::Spheres(spheres) = &wall.shape else { return 1 };
     let (radius, smaller) = met(wall, r);
     let centres: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
-    (most_within(&centres, (2.0 * radius * overlap * smaller).sqrt()) as f64 / ALONG).max(1.0)
+    most_within(&centres, (2.0 * radius * overlap * smaller).sqrt())
 }
 
 /// The most points within `distance` [m] of one of them, itself included; 0 where numbers are none, which is refused elsewhere.
@@ -89,10 +96,11 @@ mod tests {
     fn dense_spheres_are_counted() {
         let (r, overlap) = (0.01, 0.25);
         let closed = std::f64::consts::TAU * 0.005 * overlap * r / (0.0005f64 * 0.0005);
-        let found = ALONG * density_on(&grid(0.0005, r), r, overlap);
+        let found = most_on(&grid(0.0005, r), r, overlap) as f64;
         assert!((found / closed - 1.0).abs() < 0.05, "{found}, not {closed}");
         for spacing in [0.008, 0.01, 0.012] {
-            assert_eq!(density_on(&grid(spacing, r), r, overlap), 1.0, "{spacing}");
+            let found = most_on(&grid(spacing, r), r, overlap);
+            assert!(found as f64 <= ALONG, "{spacing}: {found}");
         }
         let (nan, far) = (vec![Vec3::repeat(f64::NAN)], vec![Vec3::zeros(), Vec3::x()]);
         assert_eq!((most_within(&nan, 1.0), most_within(&far, 0.5), most_within(&far, 0.0)), (0, 1, 0));

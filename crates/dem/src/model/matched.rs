@@ -202,6 +202,8 @@ fn head_on(overlap: f64, approach: f64, dt: f64) -> Contact<f64> {
         before: overlap - approach * dt,
         radius: 1.0,
         smaller: 1.0,
+        share: 1.0,
+        share_before: 1.0,
         curvature: 0.0,
         mass: 1.0,
         inverse_mass: 1.0,

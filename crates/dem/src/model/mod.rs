@@ -33,6 +33,7 @@ pub use step_cause::{
 };
 
 use crate::effects::needed;
+use crate::kernel::patch::PatchLaw;
 use crate::kernel::{Kernel, MoveInputs};
 use crate::model::limit::{critical_of_contacts, largest_reach};
 use crate::model::servo::{Response, responses};
@@ -100,6 +101,8 @@ pub struct Kind {
     pub between: (u16, u16),
     /// What they meet.
     pub with: With,
+    /// How the contacts of a grain with spheres of a wall share it; `None` where each contact acts by itself.
+    pub patch: Option<PatchLaw>,
 }
 
 impl Model {

@@ -2,10 +2,11 @@
 
 use crate::effects::{ContactLaw, Damping, Elastic, Pair};
 use crate::kernel::compose::compose;
-use crate::model::limit::{contact_between, critical_step, grains, largest, radii_by_material};
+use crate::kernel::patch::PatchLaw;
+use crate::model::limit::{contact_between, critical_step, grains, largest, normal, radii_by_material};
 use crate::model::matched;
 use crate::model::{DenseWalls, Kind, RepeatedMotion, SetupError, With};
-use crate::setup::{Setup, Step};
+use crate::setup::{Setup, Step, WallShape};
 use crate::walls::WallBody;
 
 /// By how much a step that is read from a message may be rounded [–].
@@ -92,7 +93,8 @@ pub fn kinds(setup: &Setup, dt: f64) -> Result<Vec<Kind>, SetupError> {
         let damping =
             setup.contacts.iter().zip(&matched).find(|(c, _)| known(c)).map_or(damping, |(_, d)| *d);
         let pair = Pair { law, elastic, compliance: setup.compliance(a, b, crowd(a, with)), damping };
-        Ok(Kind { kernel: compose(&pair, setup.precision), between: (a, b), with })
+        let patch = patch(setup, law, elastic, (a, b), with);
+        Ok(Kind { kernel: compose(&pair, setup.precision), between: (a, b), with, patch })
     };
     for &a in &present {
         for &b in present.iter().filter(|&&b| a <= b) {
@@ -106,4 +108,21 @@ pub fn kinds(setup: &Setup, dt: f64) -> Result<Vec<Kind>, SetupError> {
         }
     }
     Ok(list)
+}
+
+/// How contacts of a kind act together: those with the spheres of a wall, those of clumps, and those with a wall that a spring lets move.
+fn patch(
+    setup: &Setup,
+    law: &ContactLaw,
+    elastic: Elastic,
+    (a, b): (u16, u16),
+    with: With,
+) -> Option<PatchLaw> {
+    let normal = normal(law).filter(|_| setup.patches)?;
+    let clumps = setup.clumps.shapes.iter().any(|shape| shape.material == a || shape.material == b);
+    let wall = if let With::Wall(w) = with { Some(&setup.walls[w]) } else { None };
+    let shared = wall.is_some_and(|wall| matches!(wall.shape, WallShape::Spheres(_)));
+    let gap = (normal.reach)(law, elastic, 1.0);
+    let together = shared || clumps || wall.is_some_and(|wall| wall.mount.is_some());
+    together.then_some(PatchLaw { shared, hertz: normal.stiffens, gap })
 }

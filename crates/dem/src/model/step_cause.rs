@@ -100,7 +100,7 @@ pub enum CriticalPartner {
         material: String,
         /// Name of the wall.
         wall: String,
-        /// How many wall spheres push at once, where they lie deep within each other [–].
+        /// How many times as stiff as one the wall spheres are that push at once, where they lie deep within each other [–].
         spheres: Option<f64>,
     },
 }
@@ -113,7 +113,7 @@ impl Display for CriticalPartner {
                 write!(f, "{material} (wall '{wall}')")
             }
             CriticalPartner::Wall { material, wall, spheres: Some(count) } => {
-                write!(f, "{material} (wall '{wall}', {count} of its spheres at once)")
+                write!(f, "{material} (wall '{wall}', {count:.3} times as stiff as one of its spheres)")
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::model::{Kind, Model, With};
 use crate::neighbours::{LISTED_FEW, NeighbourLists, Segment, Slots};
-use crate::space::images::{Image, Periods};
+use crate::space::images::{Image, Periods, WallImages};
 use crate::state::{ContactColumns, State};
 use crate::threads::share;
 use crate::walls::WallBody;
@@ -26,8 +26,8 @@ struct Finder<'a> {
     old: &'a OldContacts,
     kinds: &'a [Kind],
     walls: &'a [WallBody],
-    /// By how many periods less each wall is counted back now; empty where nothing is periodic.
-    back: Vec<Periods>,
+    /// Images of each wall, and by how many periods less it is counted back now; empty where nothing is periodic.
+    images: Vec<(WallImages, Periods)>,
 }
 
 /// Where a contact was.
@@ -40,9 +40,13 @@ struct OldSlot<'a> {
 
 impl<'a> Finder<'a> {
     fn new(model: &'a Model, old: &'a OldContacts, wall_periods: &[Periods]) -> Finder<'a> {
-        let back = |(now, was): (&Periods, &Periods)| [0, 1, 2].map(|a| was[a] - now[a]);
-        let back = wall_periods.iter().zip(&old.wall_periods).map(back).collect();
-        Finder { old, kinds: &model.kinds, walls: &model.walls, back }
+        let period = model.cell().lengths();
+        let images = |((now, was), wall): ((&Periods, &Periods), &WallBody)| {
+            let [lo, hi] = wall.bounds;
+            (WallImages { period, lo, hi }, [0, 1, 2].map(|a| was[a] - now[a]))
+        };
+        let images = wall_periods.iter().zip(&old.wall_periods).zip(&model.walls).map(images).collect();
+        Finder { old, kinds: &model.kinds, walls: &model.walls, images }
     }
 
     /// Fills the history of one segment. A contact whose particles have been exchanged takes the opposite.
@@ -96,11 +100,13 @@ impl<'a> Finder<'a> {
 
     /// Element and image of a wall, as they were before a particle (by its old position) and the wall were moved by whole periods.
     fn element_before(&self, wall: usize, particle: u32, partner: u32) -> u32 {
-        let (Some(wrap), Some(back)) = (self.old.wraps.get(particle as usize), self.back.get(wall)) else {
+        let (Some(wrap), Some((images, back))) =
+            (self.old.wraps.get(particle as usize), self.images.get(wall))
+        else {
             return partner;
         };
         let parts = self.walls[wall].parts();
-        Image(partner / parts).before(*wrap, *back).0 * parts + partner % parts
+        images.before(Image(partner / parts), *wrap, *back).0 * parts + partner % parts
     }
 }
 

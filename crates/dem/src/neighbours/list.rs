@@ -1,5 +1,6 @@
 //! How lists become contacts: segments, what arrives at which tile, and which tiles are adjacent.
 
+use crate::kernel::patch::PATCH;
 use crate::kernel::{Arrival, SlotEnd};
 use crate::model::{Kind, With};
 use crate::neighbours::{Disturber, LISTED_FEW, RestingTile, Segment, Slots};
@@ -59,18 +60,20 @@ impl Slots {
         layout: Layout,
     ) -> Slots {
         let mut new = Slots { new: true, particles, tile: tile(particles), ..Slots::default() };
-        let (mut first, mut history, mut rows, mut kept) = (0, 0, 0, 0);
+        let (mut first, mut history, mut rows, mut kept, mut patch) = (0, 0, 0, 0, 0);
         let mut put = |kind: usize, later: bool, len: usize, new: &mut Slots| {
             if len == 0 {
                 return;
             }
             let padded = len.next_multiple_of(BLOCK);
-            let (with, slots) = (kinds[kind].with, first..first + padded);
-            new.segments.push(Segment { kind, with, slots, len, later, history, rows, kept });
+            let (with, slots, patches) =
+                (kinds[kind].with, first..first + padded, kinds[kind].patch.is_some());
+            new.segments.push(Segment { kind, with, slots, len, later, history, rows, kept, patch, patches });
             first += padded;
             history += padded * layout.history(kinds[kind].kernel.columns());
             rows += if with == With::Particles { 0 } else { padded };
             kept += if later || with == With::Images { padded } else { 0 };
+            patch += if patches { padded * PATCH } else { 0 };
         };
         images.iter().enumerate().for_each(|(kind, &len)| put(kind, false, len, &mut new));
         for tile in tiles {

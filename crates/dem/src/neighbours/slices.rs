@@ -16,6 +16,10 @@ pub struct StepColumns {
     /// Contact points of images and walls, as rows and spins of partners.
     pub rows: Vec<Row>,
     pub spins: Vec<Row4>,
+    /// Patches that contacts belong to, [`crate::kernel::patch::PATCH`] numbers each by block and column.
+    pub patch: Vec<f64>,
+    /// Whether contact points and patches are those of this instant.
+    pub pointed: bool,
     /// Whether the wrenches or the history of a block are not all zero.
     pub active: Vec<bool>,
     /// Wrenches that are kept for other tiles.
@@ -31,6 +35,7 @@ impl StepColumns {
         StepColumns {
             rows: vec![FAR[1]; rows],
             spins: vec![Row4::default(); if rotates { rows } else { 0 }],
+            patch: vec![1.0; slots.patches()],
             active: vec![true; slots.i.len() / BLOCK],
             ..StepColumns::default()
         }
@@ -88,7 +93,7 @@ impl NeighbourLists {
     /// What is computed, with the columns that it is computed in.
     pub fn with<'a>(&'a mut self, columns: &'a mut ContactColumns) -> Computed<'a> {
         let ContactColumns { layout, history, ledger, wrenches, keeps, sums, .. } = columns;
-        let StepColumns { rows, spins, active, kept, resting_tiles } = &mut self.step;
+        let StepColumns { rows, spins, patch, active, kept, resting_tiles, .. } = &mut self.step;
         let (layout, slots) = (*layout, &self.slots);
         let slice = TileSlice {
             segments: &slots.segments,
@@ -96,6 +101,7 @@ impl NeighbourLists {
             from: SliceStart::default(),
             rows,
             spins,
+            patch,
             history,
             active,
             kept: kept.slices_mut(),
@@ -138,6 +144,7 @@ pub struct SliceStart {
     pub row: usize,
     pub history: usize,
     pub kept: usize,
+    pub patch: usize,
 }
 
 /// Some segments that follow each other, with their rows of everything that is computed.
@@ -148,6 +155,7 @@ pub struct TileSlice<'a> {
     pub from: SliceStart,
     pub rows: &'a mut [Row],
     pub spins: &'a mut [Row4],
+    pub patch: &'a mut [f64],
     pub history: &'a mut [f64],
     pub active: &'a mut [bool],
     /// Wrenches that are kept for other tiles.
@@ -163,8 +171,13 @@ impl<'a> TileSlice<'a> {
         let (segments, others) = self.segments.split_at(count);
         let Some(next) = others.first() else { return std::mem::take(self) };
         let (from, layout) = (self.from, self.layout);
-        let to =
-            SliceStart { slot: next.slots.start, row: next.rows, history: next.history, kept: next.kept };
+        let to = SliceStart {
+            slot: next.slots.start,
+            row: next.rows,
+            history: next.history,
+            kept: next.kept,
+            patch: next.patch,
+        };
         (self.segments, self.from) = (others, to);
         let (slots, rows) = (to.slot - from.slot, to.row - from.row);
         TileSlice {
@@ -173,6 +186,7 @@ impl<'a> TileSlice<'a> {
             from,
             rows: split_off(&mut self.rows, rows),
             spins: split_off(&mut self.spins, rows),
+            patch: split_off(&mut self.patch, to.patch - from.patch),
             history: split_off(&mut self.history, to.history - from.history),
             active: split_off(&mut self.active, slots / BLOCK),
             kept: self.kept.split_off(to.kept - from.kept, layout),

@@ -5,6 +5,7 @@
 //! segment: whole blocks of slots, one batch of the contact loop. Images across periodic faces come first, before all tiles. History and
 //! wrenches lie in columns of State ([`crate::state::contacts`]), one row per slot.
 
+use crate::kernel::patch::PATCH;
 use crate::kernel::{Arrival, SlotEnd};
 use crate::model::With;
 use crate::simd::BLOCK;
@@ -42,6 +43,10 @@ pub struct Segment {
     pub rows: usize,
     /// First row of its wrenches that are kept for other tiles.
     pub kept: usize,
+    /// First number of its patches; those of other kinds have none.
+    pub patch: usize,
+    /// Whether its contacts may be parts of patches.
+    pub patches: bool,
 }
 
 impl Segment {
@@ -110,6 +115,11 @@ impl Slots {
     /// Rows of contact points, of images and walls.
     pub fn rows(&self) -> usize {
         self.segments.iter().filter(|s| s.with != With::Particles).map(|s| s.slots.len()).sum()
+    }
+
+    /// Numbers of the patches of all contacts that have them.
+    pub fn patches(&self) -> usize {
+        self.segments.last().map_or(0, |s| s.patch + s.slots.len() * PATCH * usize::from(s.patches))
     }
 
     /// Slots of contacts with images, which come first.

@@ -9,6 +9,7 @@ use crate::passes::drag::drag_power;
 use crate::passes::instant::driven_now;
 use crate::passes::touching::position_before;
 use crate::passes::zones::ledger::add_zones;
+use crate::passes::zones::muted::{bring, mute};
 use crate::passes::{cell, local_damping, mount};
 use crate::setup::Particle;
 use crate::space::sphere::inverse_inertia;
@@ -43,6 +44,7 @@ pub fn open(model: &Model, state: &mut State, lists: &NeighbourLists, starting: 
     if !model.setup.ledger {
         return;
     }
+    mute(model, state, lists);
     if !state.ledger.opened {
         let mut energy = Energy::default();
         close_step(model, state, lists, &mut energy);
@@ -62,6 +64,7 @@ pub fn open(model: &Model, state: &mut State, lists: &NeighbourLists, starting: 
     state.ledger.entered -= work;
     state.ledger.passed += work;
     state.ledger.work -= work + share;
+    bring(model, state, lists, starting);
 }
 
 /// Half the work of a power [W] in a step, and what a step's share [J/s²] makes [J].
@@ -122,13 +125,14 @@ pub fn add_contacts(model: &Model, state: &mut State, lists: &NeighbourLists) {
     if !model.setup.ledger {
         return;
     }
+    mute(model, state, lists);
     let freed = freed_energy(state, lists);
     let State { ledger, contacts, zones, bonds, .. } = state;
     ledger.add(&lists.slots, contacts, zones);
     ledger.add_bonds(bonds, model.dt, freed);
     state.contacts.add_work();
     state.ledger.walls += cell::step_work(model, state, lists);
-    add_zones(model, state);
+    add_zones(model, state, lists);
 }
 
 /// Whether forces drive a particle: it is free, awake, and no member of a rigid clump.

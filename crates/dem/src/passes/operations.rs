@@ -219,6 +219,7 @@ fn contact<E: Effect>(effect: &E) -> [usize; 3] {
         sums: Sums::default(),
         both: false,
         kept: WrenchSlicesMut::default(),
+        patch: &[],
         each: WrenchSlicesMut::default(),
         ledger: &mut [],
     };

@@ -13,16 +13,23 @@ pub struct KeptContact {
     pub history: ContactHistory,
 }
 
+impl KeptContact {
+    /// Whether it is one with a wall.
+    pub fn is_of_wall(&self) -> bool {
+        matches!(self.partner, KeptPartner::Wall { .. })
+    }
+}
+
 /// What a particle touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum KeptPartner {
     /// The particle of this id.
     Particle(u32),
-    /// An element of a wall: a sphere, or a face, an edge or a corner of a mesh; 0 of a plane.
+    /// An element of a wall: a sphere or a triangle; 0 of a plane.
     Wall {
         /// Index of the wall.
         wall: u32,
-        /// Index of its element.
+        /// Index of its element, in the order of [`WallShape::elements`](crate::setup::WallShape::elements).
         element: u32,
     },
 }

@@ -83,6 +83,8 @@ pub struct Setup {
     pub strain: [Option<Strain>; 3],
     /// Which part of a step the force of a contact stands for.
     pub sampling: Sampling,
+    /// Whether the spheres of a wall that a grain touches at once act as one contact ([`crate::kernel::patch`]); else each acts by itself.
+    pub patches: bool,
     /// In which precision contacts are computed.
     pub precision: Precision,
     /// Neighbours are listed up to this gap [m]; `None` chooses.
@@ -123,6 +125,7 @@ impl Default for Setup {
             periodic: [None; 3],
             strain: [const { None }; 3],
             sampling: Sampling::default(),
+            patches: true,
             precision: Precision::Double,
             skin: None,
             sleep: None,
@@ -268,6 +271,32 @@ pub enum WallShape {
     Plane(Plane),
     /// Triangles; both sides act.
     Mesh(TriMesh),
+}
+
+/// One element of a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WallElement {
+    /// A wall sphere: centre [m], radius [m].
+    Sphere(Vec3, f64),
+    /// The whole plane.
+    Plane(Plane),
+    /// Corners of a triangle [m].
+    Triangle([Vec3; 3]),
+}
+
+impl WallShape {
+    /// Its elements in the order in which the engine counts them.
+    pub fn elements(&self) -> Vec<WallElement> {
+        match self {
+            WallShape::Spheres(spheres) => {
+                let order = crate::walls::order_of_spheres(spheres);
+                let of = |&k: &u32| spheres[k as usize];
+                order.iter().map(of).map(|(centre, radius)| WallElement::Sphere(centre, radius)).collect()
+            }
+            WallShape::Plane(plane) => vec![WallElement::Plane(*plane)],
+            WallShape::Mesh(mesh) => mesh.triangles().map(WallElement::Triangle).collect(),
+        }
+    }
 }
 
 /// When particles sleep ([`crate::passes::sleep`] says what that does).

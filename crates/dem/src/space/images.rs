@@ -3,7 +3,7 @@
 //! A wall that moves far is counted back into the box by whole periods, those of the step of listing: a conveyor may run
 //! for ever. A plane has images along the axes that cross it; it is the same in all others. Which image a contact belongs
 //! to stands in its partner: number of the part + image × parts. When a particle comes back through the other face, or a wall is
-//! counted back, the same contact has another image ([`Image::before`]).
+//! counted back, the same contact has another image ([`WallImages::before`]).
 
 use geom::Vec3;
 
@@ -36,13 +36,6 @@ impl Image {
         let n = self.periods();
         Vec3::new(n[0] as f64 * period.x, n[1] as f64 * period.y, n[2] as f64 * period.z)
     }
-
-    /// Which image this was before a particle was moved, and its wall counted back, by so many periods more.
-    #[inline(always)]
-    pub fn before(self, particle: Periods, wall: Periods) -> Image {
-        let now = self.periods();
-        Image::of([0, 1, 2].map(|a| now[a] - particle[a] + wall[a]))
-    }
 }
 
 /// Which images of a wall particles may touch.
@@ -58,13 +51,26 @@ pub struct WallImages {
 }
 
 impl WallImages {
+    /// Whether images lie along axis `a`. Written so that NaN, a plane along this axis, has none.
+    #[inline(always)]
+    fn repeats(&self, a: usize) -> bool {
+        self.period[a] > 0.0 && self.lo[a] < f64::INFINITY
+    }
+
+    /// Which image `now` was before a particle was moved, and the wall counted back, by so many periods more. Along an axis without images all periods are
+    /// the same contact.
+    #[inline(always)]
+    pub fn before(&self, now: Image, particle: Periods, wall: Periods) -> Image {
+        let now = now.periods();
+        Image::of([0, 1, 2].map(|a| if self.repeats(a) { now[a] - particle[a] + wall[a] } else { 0 }))
+    }
+
     /// Images near a particle at `p` that reaches so far [m]; the wall itself first.
     #[inline(always)]
     pub fn near(&self, p: &Vec3, reach: f64) -> impl Iterator<Item = (Image, Vec3)> {
         let mut digits = [(1, [0, 0, 0]); 3];
         for a in 0..3 {
-            // Written so that NaN, a plane along this axis, has none.
-            if self.period[a] > 0.0 {
+            if self.repeats(a) {
                 let (count, list) = &mut digits[a];
                 if p[a] + reach > self.lo[a] + self.period[a] {
                     list[*count] = 1;

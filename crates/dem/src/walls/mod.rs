@@ -64,10 +64,7 @@ impl WallBody {
     /// Sorts wall spheres into their own grid and triangles into their tree, once; contacts act up to a gap of `reach` [m], and are looked for a time `ahead` [s].
     pub fn new(wall: &Wall, reach: f64, ahead: f64) -> WallBody {
         let surface = match &wall.shape {
-            WallShape::Spheres(spheres) => {
-                let largest = spheres.iter().map(|s| s.1).fold(0.0, f64::max);
-                sorted_spheres(spheres, largest)
-            }
+            WallShape::Spheres(spheres) => sorted_spheres(spheres),
             WallShape::Plane(plane) => Surface::Plane(*plane),
             WallShape::Mesh(mesh) => {
                 let corners: Vec<[Vec3; 3]> = mesh.triangles().collect();
@@ -282,12 +279,26 @@ fn span(shape: &WallShape, axis: &Vec3) -> f64 {
     }
 }
 
-fn sorted_spheres(spheres: &[(Vec3, f64)], largest: f64) -> Surface {
+/// Which of the spheres that were given is the first, the second, … of their grid.
+pub(crate) fn order_of_spheres(spheres: &[(Vec3, f64)]) -> Vec<u32> {
     let centres: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
-    let cell = if largest > 0.0 { 2.0 * largest } else { 1.0 };
-    let order = Grid::new(&centres, cell).order().to_vec();
-    let centres: Vec<Vec3> = order.iter().map(|&k| centres[k as usize]).collect();
-    let grid = Grid::new(&centres, cell);
+    Grid::new(&centres, cell_of_spheres(spheres)).order().to_vec()
+}
+
+/// Length of the cells that wall spheres are sorted by [m].
+fn cell_of_spheres(spheres: &[(Vec3, f64)]) -> f64 {
+    let largest = largest_of(spheres);
+    if largest > 0.0 { 2.0 * largest } else { 1.0 }
+}
+
+fn largest_of(spheres: &[(Vec3, f64)]) -> f64 {
+    spheres.iter().map(|s| s.1).fold(0.0, f64::max)
+}
+
+fn sorted_spheres(spheres: &[(Vec3, f64)]) -> Surface {
+    let (order, largest) = (order_of_spheres(spheres), largest_of(spheres));
+    let centres: Vec<Vec3> = order.iter().map(|&k| spheres[k as usize].0).collect();
+    let grid = Grid::new(&centres, cell_of_spheres(spheres));
     let radii = order.iter().map(|&k| spheres[k as usize].1).collect();
     Surface::Spheres { centres, radii, grid, largest, original: order }
 }

@@ -70,6 +70,11 @@ impl Pose {
         Pose { rotation, through, shift: zero, velocity: zero, turn: zero }
     }
 
+    /// This pose, which is not turned and does not turn, with its shift told of the point `through` [m].
+    pub(super) fn about(self, through: Vec3) -> Pose {
+        Pose { through, ..self }
+    }
+
     /// This pose turned further about an axis through the same point, and turning faster by `spin` [rad/s].
     pub(super) fn turned_by(self, axis: &Vec3, angle: f64, spin: Vec3) -> Pose {
         match Unit::try_new(*axis, 0.0) {
@@ -108,7 +113,7 @@ impl Pose {
         Pose { shift: self.shift + by, velocity: self.velocity + speed, ..self }
     }
 
-    /// The shift alone, without the turn [m].
+    /// The way [m] from t = 0 of the point that [`Motion::reference`](crate::Motion::reference) names: the shift without the turn.
     pub fn shift(&self) -> Vec3 {
         self.shift
     }

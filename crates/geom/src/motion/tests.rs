@@ -120,3 +120,47 @@ fn a_table_that_goes_to_and_fro_is_a_vibration() {
     assert_eq!(path(90, &|t| Vec3::x() * wave(t / 2.0), &still), 0.0);
     assert_eq!(path(90, &|t| Vec3::x() * t, &still), 0.0);
 }
+
+/// A motion whose points and directions are turned by `turn` and shifted by `by` [m].
+fn seen(motion: &Motion, turn: &nalgebra::Rotation3<f64>, by: &Vec3) -> Motion {
+    let one = |m: &Motion| {
+        let table = |path: &Path| {
+            let rows = path.rows().iter().map(|r| PathRow { shift: turn * r.shift, ..*r }).collect();
+            Path::new(turn * path.axis(), rows).unwrap()
+        };
+        let [velocity, amplitude] = [m.velocity, m.amplitude].map(|v| turn * v);
+        let [spin, swing] = [m.turn, m.swing].map(|v| turn * v);
+        let (through, path) = (turn * m.through + by, m.path.as_ref().map(table));
+        Motion { velocity, amplitude, turn: spin, swing, through, path, then: Vec::new(), ..m.clone() }
+    };
+    Motion::of(motion.parts().map(one).collect())
+}
+
+/// The shift of any list of motions is the way of a point of the wall: it turns with the frame of coordinates, and does not depend on its origin.
+#[test]
+fn the_shift_does_not_depend_on_the_origin() {
+    let moves = Motion { velocity: Vec3::new(0.1, -0.3, 0.2), until: 0.4, ..Motion::default() };
+    let shakes = Motion { amplitude: Vec3::new(0.0, 0.02, 0.0), frequency: 3.0, ..Motion::default() };
+    let parts: Vec<Motion> =
+        all().parts().cloned().map(|m| Motion { then: Vec::new(), ..m }).chain([moves, shakes]).collect();
+    let count = parts.len();
+    let mut next = 1u64;
+    let mut random = |below: usize| {
+        next = next.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (next >> 33) as usize % below
+    };
+    for _ in 0..200 {
+        let list = (0..=random(4)).map(|_| parts[random(count)].clone()).collect();
+        let motion = Motion::of(list);
+        let turn = nalgebra::Rotation3::new(Vec3::from([0, 1, 2].map(|_| random(600) as f64 * 0.01)));
+        let by = Vec3::from([0, 1, 2].map(|_| random(2000) as f64 * 0.01 - 10.0));
+        let (other, time) = (seen(&motion, &turn, &by), random(300) as f64 * 0.01);
+        let (here, there) = (motion.pose(time), other.pose(time));
+        let off = (turn * here.shift() - there.shift()).norm();
+        assert!(off < 1e-11, "{off} m: {motion:?} at {time} s");
+        let point = motion.reference();
+        assert!((here.position(&point) - point - here.shift()).norm() < 1e-12);
+        let place = turn * here.position(&Vec3::x()) + by;
+        assert!((place - there.position(&(turn * Vec3::x() + by))).norm() < 1e-11, "the same motion");
+    }
+}

@@ -8,12 +8,14 @@ mod head;
 pub mod history;
 mod load;
 mod particles;
+mod run_walls;
 mod walls;
 mod zone;
 
 pub use head::{InletSource, Source};
 pub use load::{LOAD_COLUMNS, STRAIN_COLUMNS, read_domain, read_load};
 pub use particles::{ParticleFile, ParticleTable, RunClumps};
+pub use run_walls::{RunContacts, RunWall};
 pub use walls::{WallFile, WallSphere};
 pub use zone::ZoneRecord;
 

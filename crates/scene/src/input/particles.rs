@@ -1,6 +1,7 @@
 //! `[[particles]]`: spheres from CSV, PLY, or the last frame of a run.
 
 use super::csv::csv;
+use super::run_walls::{RunContacts, run_walls};
 use crate::error::{Result, SceneError};
 use dem::setup::{KeptContact, Particle};
 use geom::Shown;
@@ -26,8 +27,8 @@ pub struct ParticleFile {
     pub hash: String,
     /// Warning about columns that are not used, or about a run that did not reach its end.
     pub warning: Option<String>,
-    /// Histories of the contacts of a run, and the names of its walls.
-    pub kept: (Vec<KeptContact>, Vec<String>),
+    /// Histories of the contacts of a run, with its walls.
+    pub kept: RunContacts,
     /// Rigid clumps of a run; their spheres are not among the particles.
     pub clumps: Option<RunClumps>,
 }
@@ -53,8 +54,8 @@ pub struct ParticleTable {
     pub is_run: bool,
     /// Why that run was stopped before its end.
     pub stopped: Option<LogMessage>,
-    /// Its contact histories, and the names of its walls.
-    pub kept: (Vec<KeptContact>, Vec<String>),
+    /// Its contact histories, with its walls.
+    pub kept: RunContacts,
     /// The rigid clumps of that run.
     pub clumps: Option<RunClumps>,
 }
@@ -131,7 +132,12 @@ impl ParticleTable {
         };
         let hash = record::hash(&self.table);
         let has_ids = ids.is_some();
-        let (materials, kept, clumps) = (self.materials, self.kept, self.clumps);
+        let (materials, mut kept, clumps) = (self.materials, self.kept, self.clumps);
+        if !kept.contacts.is_empty() {
+            let id = |i: usize| ids.as_ref().map_or(i as u32, |ids| ids[i]);
+            kept.grains = (0..positions.len()).map(|i| (id(i), positions[i], radii[i])).collect();
+            kept.grains.sort_unstable_by_key(|grain| grain.0);
+        }
         Ok(ParticleFile { particles, has_ids, clusters, materials, hash, warning, kept, clumps })
     }
 
@@ -200,7 +206,7 @@ fn vertices(name: &str, bytes: &[u8]) -> Result<Table> {
 
 fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
     let (mut frame, mut materials, mut stopped) = (None, Vec::new(), None);
-    let (mut history, mut walls) = (Vec::new(), Vec::new());
+    let (mut history, mut walls, mut spheres) = (Vec::new(), Vec::new(), None);
     let (mut shapes, mut bodies) = (Vec::new(), None);
     for event in Reader::new(bytes) {
         match event.map_err(|e| SceneError::content(&name, "a run", e))? {
@@ -224,7 +230,10 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
             Event::Bytes { topic, data, .. } if topic == topic::SURFACES => {
                 let read = WallRecord::read_all(&data)
                     .map_err(|e| SceneError::file(&name, &e, "give a run that dem-run wrote"))?;
-                walls = read.into_iter().map(|wall| wall.name).collect();
+                walls = read;
+            }
+            Event::Points { topic, time_ns, table } if topic == topic::WALLS => {
+                spheres.get_or_insert((time_ns, table));
             }
             Event::Bytes { topic, data, .. } if topic == topic::LOG => {
                 stopped = LogMessage::stop(&data).or(stopped);
@@ -234,9 +243,12 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
     }
     let none = || SceneError::file(&name, "has no message on /particles", "give a run that dem-run wrote");
     let (time, table) = frame.ok_or_else(none)?;
-    let mut kept = Vec::new();
+    let mut kept = RunContacts { source: name.clone(), ..RunContacts::default() };
     for (_, rows) in history.into_iter().filter(|(at, _)| *at == time) {
-        kept.extend(super::history::from_table(&name, &rows)?);
+        kept.contacts.extend(super::history::from_table(&name, &rows)?);
+    }
+    if kept.contacts.iter().any(KeptContact::is_of_wall) {
+        kept.walls = run_walls(&name, walls, spheres, time)?;
     }
     let clumps = match bodies {
         Some((at, rows)) if at == time => Some(RunClumps { shapes, rows }),
@@ -246,7 +258,7 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
         }
         _ => None,
     };
-    Ok(ParticleTable { table, name, materials, is_run: true, stopped, kept: (kept, walls), clumps })
+    Ok(ParticleTable { table, name, materials, is_run: true, stopped, kept, clumps })
 }
 
 #[cfg(test)]
@@ -278,7 +290,7 @@ mod tests {
             writer.points(topic::HISTORY, time, FRAME, to_table(&rows)).unwrap();
         }
         let read = last_frame("run.mcap".to_owned(), &writer.finish().unwrap()).unwrap();
-        let ids: Vec<u32> = read.kept.0.iter().map(|k| k.id).collect();
+        let ids: Vec<u32> = read.kept.contacts.iter().map(|k| k.id).collect();
         assert_eq!(ids, [10, 11, 12, 20]);
     }
 

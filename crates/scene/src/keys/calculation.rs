@@ -43,6 +43,20 @@ pub struct Time {
     /// Which part of a step the force of a contact stands for.
     #[serde(default)]
     pub contacts: Sampling,
+    /// How the contacts of two bodies act together.
+    #[serde(default)]
+    pub patch: Patches,
+}
+
+/// How the contacts of two bodies act together: a grain with the spheres of a wall, a clump with a wall, another clump or a grain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Patches {
+    /// Neighbouring contacts as one, and each dashpot for the mass that it moves.
+    #[default]
+    Shared,
+    /// Each by itself, for the mass of the whole bodies.
+    Plain,
 }
 
 /// Which part of a step the force of a contact stands for.

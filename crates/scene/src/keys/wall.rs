@@ -73,8 +73,13 @@ impl Face {
         ["x-", "x+", "y-", "y+", "z-", "z+"][self as usize]
     }
 
+    /// Its coordinate along its axis, in a box between two corners [m].
+    pub fn coordinate(self, corners: &[f64; 6]) -> f64 {
+        corners[self as usize / 2 + 3 * (self as usize % 2)]
+    }
+
     /// Its plane in a box between two corners; the normal points into the box.
-    fn plane(self, corners: &[f64; 6]) -> Plane {
+    pub fn plane(self, corners: &[f64; 6]) -> Plane {
         let (axis, high) = (self as usize / 2, self as usize % 2);
         let point = Vec3::from_column_slice(&corners[3 * high..3 * high + 3]);
         Plane { point, normal: Vec3::ith(axis, if high == 1 { -1.0 } else { 1.0 }) }

@@ -5,10 +5,10 @@ use super::insertion::Insertion;
 use super::servos::ServoArea;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
-use crate::input::{InletSource, read_mesh};
+use crate::input::{InletSource, RunContacts, read_mesh};
 use crate::keys::{self, SceneKeys};
 use crate::scene::Scene;
-use dem::setup::{self, EntryBonds, KeptContact, Particle, Zone};
+use dem::setup::{self, EntryBonds, Particle, Zone};
 use geom::Shape;
 use record::{MaterialRecord, Sizes};
 use std::ops::Range;
@@ -50,8 +50,8 @@ pub(super) struct FilesRead {
     pub settled: Vec<Range<usize>>,
     /// Clumps of runs, by index in [`setup::Clumps::placed`].
     pub settled_clumps: Vec<Range<usize>>,
-    /// Their contact histories, and the names of the walls of each run.
-    pub kept: Vec<(Vec<KeptContact>, Vec<String>)>,
+    /// Contact histories of each run.
+    pub kept: Vec<RunContacts>,
 }
 
 /// A plan in the making.

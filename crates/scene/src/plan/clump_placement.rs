@@ -49,6 +49,11 @@ impl PlanBuilder<'_> {
     pub(super) fn clump_file(&mut self, key: &str, entry: &Particles, clump: &str) -> Result<()> {
         let shape = self.clump(&format!("{key}.clump"), clump)?;
         let file = ParticleTable::read(&self.path(&entry.source), entry.length_factor())?;
+        if file.clumps.is_some() {
+            let (at, cure) = (format!("{key}.clump"), "take it out: the clumps of the run keep their shapes");
+            let why = "would place a clump at each sphere, and the file is a run with clumps";
+            return Err(self.check.wrong(&at, format!("\"{clump}\""), why, cure));
+        }
         let columns = file.columns();
         self.inputs.push(("particles".to_owned(), record::hash(&file.table)));
         self.warnings.extend(columns.unused(&known()));

@@ -20,6 +20,7 @@ mod impact;
 mod implausible;
 mod insertion;
 mod insertions;
+mod kept;
 mod lattice;
 mod packing;
 mod particles;

@@ -4,7 +4,7 @@ use super::builder::PlanBuilder;
 use crate::error::Result;
 use crate::input::ParticleFile;
 use crate::keys::Particles;
-use dem::setup::{KeptContact, KeptPartner, Particle, Wall, WallShape};
+use dem::setup::{Particle, Wall, WallShape};
 use geom::Vec3;
 
 impl PlanBuilder<'_> {
@@ -125,25 +125,6 @@ impl PlanBuilder<'_> {
             let shape = WallShape::Spheres(part.iter().map(|s| s.1).collect());
             self.walls.push(Wall::new(name, material, shape));
         }
-    }
-
-    /// Histories that contacts have from the runs that particles come from. A wall is the one of the same name.
-    pub(super) fn kept(&self) -> Vec<KeptContact> {
-        let mut all = Vec::new();
-        for (contacts, names) in &self.read.kept {
-            let named = |name: &String| self.walls.iter().position(|w| w.name == *name).map(|w| w as u32);
-            let now: Vec<Option<u32>> = names.iter().map(named).collect();
-            all.extend(contacts.iter().filter_map(|contact| {
-                let partner = match contact.partner {
-                    KeptPartner::Particle(id) => KeptPartner::Particle(id),
-                    KeptPartner::Wall { wall, element } => {
-                        KeptPartner::Wall { wall: (*now.get(wall as usize)?)?, element }
-                    }
-                };
-                Some(KeptContact { partner, ..*contact })
-            }));
-        }
-        all
     }
 }
 

@@ -3,7 +3,7 @@
 use super::builder::PlanBuilder;
 use super::{NO_DENSITY, Plan, accuracy, bonds, contacts, impact};
 use crate::error::Result;
-use crate::keys::{Arithmetic, BackThroughZone, DragLaw, Sampling};
+use crate::keys::{Arithmetic, BackThroughZone, DragLaw, Patches, Sampling};
 use dem::setup::{self, CameBack, Guards, Setup, Step};
 use geom::Vec3;
 
@@ -43,6 +43,7 @@ impl PlanBuilder<'_> {
                 Sampling::Averaged => setup::Sampling::Averaged,
                 Sampling::Sampled => setup::Sampling::Sampled,
             },
+            patches: keys.time.patch == Patches::Shared,
             skin: keys.neighbours.skin,
             sleep: keys.sleep.map(|s| setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
             ledger: keys.keeps_ledger(),

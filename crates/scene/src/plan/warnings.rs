@@ -1,9 +1,10 @@
 //! Warnings of a plan: overlaps at the start, spins that nothing turns, and implausible values ([`super::implausible`]). The scene runs with them.
 
 use super::builder::PlanBuilder;
+use crate::keys::Face;
 use dem::effects::{Slot, active};
 use dem::setup::{ContactLaw, Particle, WallShape};
-use geom::{Vec3, grid};
+use geom::{Shown, Vec3, counted_as, grid};
 
 /// Overlap at the start, over the smaller radius, above which a warning is given [–].
 const DEEP: f64 = 0.01;
@@ -26,6 +27,7 @@ impl PlanBuilder<'_> {
         self.forces_of_servos();
         self.late();
         self.bonds_to_fixed();
+        self.beyond_open_sides();
         let most = self.keys().guards.overlap.unwrap_or(dem::setup::Guards::default().overlap);
         // Deeper overlaps are refused.
         let deep = self.deepest().filter(|deep| deep.share > DEEP && deep.share <= most);
@@ -36,6 +38,31 @@ impl PlanBuilder<'_> {
                 100.0 * share
             )
         }));
+    }
+
+    /// The faces of a box do not end at its corners: grains beyond its open side are between them, too.
+    fn beyond_open_sides(&mut self) {
+        for (i, entry) in self.keys().wall.iter().enumerate() {
+            let (Some(corners), Some(faces)) = (entry.cuboid, &entry.faces) else { continue };
+            let open = Face::ALL.into_iter().filter(|face| !faces.contains(face));
+            let found = open.map(|face| (face, self.beyond(&corners, face))).find(|(_, count)| *count > 0);
+            let Some((face, count)) = found else { continue };
+            let name = entry.name.clone().unwrap_or_else(|| format!("wall.{i}"));
+            let (grains, side) = (counted_as(count, "grain", ["starts", "start"]), face.name());
+            let at = Shown(face.coordinate(&corners));
+            self.warnings.push(format!(
+                "wall '{name}': {grains} beyond the open side {side} of the box, at {at} m, where its other faces go on as endless planes: none can leave over \
+                 the rim; give walls that end as mesh = \"…\", or make the box as large as the room of the grains"
+            ));
+        }
+    }
+
+    /// How many grains start beyond a face of a box.
+    fn beyond(&self, corners: &[f64; 6], face: Face) -> usize {
+        let plane = face.plane(corners);
+        let spheres = self.particles.iter().map(|p| &p.position);
+        let all = spheres.chain(self.clumps.placed.iter().map(|b| &b.position));
+        all.filter(|p| plane.signed_distance(p) < 0.0).count()
     }
 
     /// The force of a servo is always written.

@@ -42,7 +42,13 @@ fn main() -> io::Result<()> {
     }
     let page = format!("{HEAD}{} cases, seed {seed}:\n\n{}{TAIL}", found.count(), found.table());
     print!("{page}");
-    arguments.get(3).map_or(Ok(()), |file| fs::write(file, page))
+    arguments.get(3).map_or(Ok(()), |file| fs::write(file, page + &rest(file)))
+}
+
+/// Parts of the page that other programs write: they follow the first heading of the second level.
+fn rest(file: &str) -> String {
+    let old = fs::read_to_string(file).unwrap_or_default();
+    old.find("\n## ").map_or_else(String::new, |at| old[at..].to_owned())
 }
 
 const HEAD: &str = "# Reliability

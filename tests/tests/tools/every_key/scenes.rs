@@ -35,6 +35,7 @@ dt = "auto"
 safety = 0.4
 shorten = 0.02
 contacts = "averaged"
+patch = "shared"
 [output]
 every = 0.001
 checkpoint = 0.001
@@ -330,6 +331,7 @@ const LAWS: &str = r#"
 until = 0.002
 safety = 0.3
 contacts = "sampled"
+patch = "plain"
 [guards]
 zones = true
 [drag]

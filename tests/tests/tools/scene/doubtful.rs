@@ -178,3 +178,19 @@ fn sides_of_a_servo_lie_across_its_direction_and_are_two() {
     let twice = ["give the length of one side twice"];
     refuses(&scene("[[\"box x-\", \"box x+\"], [\"box x+\", \"box x-\"]]"), ONE, &twice);
 }
+
+/// The faces of a box are planes without an end: grains above an open top cannot leave over the rim.
+#[test]
+fn grains_beyond_the_open_side_of_a_box_are_told() {
+    let bin = |top: &str| {
+        let faces = "faces = [\"x-\", \"x+\", \"y-\", \"y+\", \"z-\"]\nmaterial = \"rock\"\n";
+        [ROCK, &format!("[[wall]]\nname = \"bin\"\nbox = [-0.1, -0.1, 0, 0.1, 0.1, {top}]\n{faces}")].concat()
+    };
+    is_fine(&bin("0.2"), ONE);
+    let told = [
+        "wall 'bin': 1 grain starts beyond the open side z+ of the box, at 0.05 m",
+        "endless planes",
+        "mesh",
+    ];
+    warns(&bin("0.05"), ONE, &told);
+}

@@ -70,6 +70,7 @@ fn a_polyhedron_has_faces_that_can_be_picked() {
     let shape = ClumpRecord {
         centre: [0.0; 3],
         inertia: [1.0; 3],
+        axes: None,
         material: 0,
         name: "cube".into(),
         scales: None,

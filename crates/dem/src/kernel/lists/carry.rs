@@ -77,6 +77,7 @@ unsafe fn element_before(t: &DeviceTables, kind: &DeviceKind, particle: u32, par
         let wall: &DeviceWall = &*t.lists.walls.at(kind.wall as usize);
         let wrap: Periods = *t.lists.wraps.at(particle as usize);
         let [x, y, z, _] = wall.back;
-        Image(partner / wall.parts).before(wrap, [x, y, z]).0 * wall.parts + partner % wall.parts
+        let before = wall.around.before(Image(partner / wall.parts), wrap, [x, y, z]);
+        before.0 * wall.parts + partner % wall.parts
     }
 }

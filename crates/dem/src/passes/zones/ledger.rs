@@ -3,16 +3,22 @@
 use crate::kernel::{LEDGER, SlotEnd};
 use crate::model::Model;
 use crate::neighbours::{NeighbourLists, Segment};
+use crate::passes::zones::muted::Entering;
 use crate::setup::Particle;
 use crate::state::{Direction, State};
 
 /// The ledger of one step, before the zones move.
-pub fn add_zones(model: &Model, state: &mut State) {
-    let now = state.time();
+pub fn add_zones(model: &Model, state: &mut State, lists: &NeighbourLists) {
+    let (now, entering) = (state.time(), Entering::now(state));
     for t in &state.zones.zone_particles {
         let flow = t.flow(now, &state.zones, &model.setup);
         let moving = Particle { velocity: flow.velocity, spin: flow.spin, ..t.start };
-        let work = power(state, t.at as usize, &moving) * model.dt;
+        let k = t.at as usize;
+        let muted = match t.direction {
+            Direction::In(_) => entering.power(state, lists, k, &moving),
+            Direction::Out(_) => 0.0,
+        };
+        let work = (power(state, k, &moving) - muted) * model.dt;
         state.ledger.passed += work;
         match t.direction {
             Direction::In(_) => state.ledger.entered -= work,

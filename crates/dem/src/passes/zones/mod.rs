@@ -7,6 +7,7 @@ pub mod cross;
 pub mod enter;
 pub mod history;
 pub mod ledger;
+pub mod muted;
 pub mod paths;
 pub mod removed;
 pub mod returned;
