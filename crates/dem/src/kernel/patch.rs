@@ -4,13 +4,13 @@
 //! u_i = elastic energy of sphere i alone at its overlap δ_i;   y_i = u_i⁴
 //! U = Σ y_i D_i^(−3/4),  D_i = Σ_j g_ij y_j                    a 4-norm where all belong together (g = 1); a plain sum where none do (g_ij = 0)
 //! N_i = −∂U/∂x along n_i = h_i f_i(δ_i),   h_i = 4 u_i³ (D_i^(−3/4) − ¾ Σ_k g_ki y_k D_k^(−7/4))
-//! g_ij = clamp(3 x − ½, 0, 1),  x = (D_i² + D_j² − |c_i − c_j|²)/2 D_i D_j,  D_i = r + R_i
+//! g_ij = clamp(4 x − 2.3, 0, 1),  x = (D_i² + D_j² − |c_i − c_j|²)/2 D_i D_j,  D_i = r + R_i
 //! m_i = min(N_i/a_i, 1/A_i),  a_i = n_i·(V/m + d (V·d)/M),  V = Σ N_j n_j,  A_i = 1/m + (n_i·d)²/M
 //! ```
 //!
 //! N spheres that push the same way would be N times as stiff as one, and damp N times as much as one dashpot √N times as stiff should. The energy U is
 //! a function of the position alone, since x is the cosine of the angle at which the grain touches both spheres at once, which their centres fix. So
-//! nothing is made on any way around. Spheres at less than 60° are one patch, those at more than 80°, as in a corner or a slot, are contacts of their own.
+//! nothing is made on any way around. Spheres at less than 34° are one patch, those at more than 55°, as in a corner, a slot or a pocket of spheres of the grain's size, are contacts of their own.
 //! Each dashpot is made for the mass m_i that all springs of this pair of bodies move at its place; d and M are of a wall on a spring.
 //!
 //! Where one sphere is touched nothing of this is computed. Scalar, in double precision: the same for all widths of lanes, and on a GPU.
@@ -26,7 +26,7 @@ pub const PATCH: usize = 4;
 pub const ALONE: [f64; PATCH] = [1.0; PATCH];
 
 /// Cosine of the angle from the deepest sphere within which all belong together: half of what g = 1 allows for each two, with a margin.
-const TOGETHER: f64 = 0.88;
+const TOGETHER: f64 = 0.957;
 /// Below this share a contact counts as none where one is divided by another.
 const LEAST: f64 = 1e-30;
 
@@ -92,7 +92,7 @@ impl Touch {
     /// g of two spheres.
     #[inline(always)]
     fn coupling(&self, other: &Touch) -> f64 {
-        (3.0 * self.cosine(other) - 0.5).clamp(0.0, 1.0)
+        (4.0 * self.cosine(other) - 2.3).clamp(0.0, 1.0)
     }
 
     /// Cosine of the angle at which a grain touches both at once.

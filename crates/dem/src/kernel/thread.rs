@@ -117,11 +117,11 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
     }
 }
 
-/// What part the contact in a slot, of particle `i` and a kind of this number, has in its patch of wall spheres.
+/// What part the contact in a slot, of particle `i` and a kind of this number, has in its patch of wall spheres. Not inlined: one copy serves all compositions.
 ///
 /// # Safety
 /// Tables are in place.
-#[inline(always)]
+#[inline(never)]
 unsafe fn share(
     t: &DeviceTables,
     step: u32,
