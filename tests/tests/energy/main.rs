@@ -3,7 +3,6 @@
 
 mod closing;
 mod guard;
-mod oblique;
 mod order;
 mod scenes;
 mod sticking;

@@ -15,7 +15,7 @@ const RUBBING: [Rubbing; 8] = [
     ("sliding", |c| c.set("sliding_friction", 0.3), &[24]),
     ("weakening", weakening, &[24]),
     ("rolling", |c| rub(c, &["rolling_resistance"]), &[24, 24]),
-    ("constant rolling", constant, &[24, 0]),
+    ("constant rolling", constant, &[24, 24]),
     ("twisting", |c| rub(c, &["twisting_resistance"]), &[24, 8]),
     ("rolling and twisting", |c| rub(c, &["rolling_resistance", "twisting_resistance"]), &[24, 24, 8]),
     (

@@ -156,7 +156,7 @@ fn explain_names_every_effect_of_contact_with_its_bytes() {
         ("law = \"jkr\"\nwork_of_adhesion = 0.1", &[("jkr", "8"), ("sliding_friction", "24")]),
         ("cohesion = \"sjkr\"\ncohesion_energy_density = 1e3", &[("hertz", "0"), ("cohesion", "0")]),
         ("rolling_resistance = 0.1", &[("rolling_resistance", "24")]),
-        ("rolling_resistance = 0.1\nrolling_model = \"constant\"", &[("constant rolling", "0")]),
+        ("rolling_resistance = 0.1\nrolling_model = \"constant\"", &[("constant rolling", "24")]),
         ("twisting_resistance = 0.1", &[("twisting_resistance", "8")]),
     ];
     for (keys, lines) in cases {

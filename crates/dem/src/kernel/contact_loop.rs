@@ -4,8 +4,8 @@
 //! operation and takes several times as long.
 
 use super::averaged::{average, size};
-use super::patch::PATCH;
-use super::{Batch, LEDGER, LOST, STIFFNESS, StepInputs, WrenchBuffer};
+use super::patch::{self, PATCH};
+use super::{Batch, LEDGER, LOST, StepInputs, WrenchBuffer};
 use crate::effects::{Contact, DISSIPATORS, Effect, History, Response};
 use crate::simd::{BLOCK, FORCE, FORCE_AND_MOMENT, Indices, Lane, Number, Row, Row4, V, fetch};
 
@@ -82,7 +82,7 @@ pub fn act<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     let at = block * BLOCK + lane;
     let mut found = geometry::<R, E>(step, batch, ends);
     if !batch.patch.is_empty() {
-        share::<R>(&mut found.contact, &batch.patch[block * PATCH * BLOCK..][lane..]);
+        patch::apply::<R>(&mut found.contact, &batch.patch[block * PATCH * BLOCK..][lane..]);
     }
     let words = E::HISTORY.div_ceil(T::IN_A_WORD) * BLOCK;
     let stored = T::of_mut(&mut batch.history[block * words..(block + 1) * words]);
@@ -93,9 +93,6 @@ pub fn act<R: Lane, E: Effect, T: Number, const KEEP: bool>(
         let touches = found.contact.touching;
         let beyond = R::select(touches, found.reach, found.contact.overlap + was_held);
         found.contact.touching = beyond.gt(R::splat(0.0));
-    }
-    if KEEP {
-        found.contact.stiffness_last = stiffness_last(&batch.ledger[at * LEDGER..]);
     }
     let part = if step.ahead > 0.0 { average(step.ahead, &mut found.contact, was_held) } else { None };
     let touching = found.contact.touching;
@@ -247,21 +244,9 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         spin,
         lever,
         inertia,
-        stiffness_last: zero,
         turn,
     };
     Geometry { contact, reach, share, surface, spin_j }
-}
-
-/// Part of a patch, from its numbers in columns of a block.
-#[inline(always)]
-fn share<R: Lane>(contact: &mut Contact<R>, patch: &[f64]) {
-    contact.share = R::load(patch);
-    contact.share_before = R::load(&patch[BLOCK..]);
-    let mass = R::load(&patch[2 * BLOCK..]);
-    contact.mass = contact.mass * mass;
-    contact.inertia = contact.inertia * mass;
-    contact.inverse_mass = contact.inverse_mass * R::load(&patch[3 * BLOCK..]);
 }
 
 /// Adds force, moment and torque to both ends, and keeps them where they are wanted; the force [N].
@@ -297,16 +282,6 @@ fn scatter<R: Lane, E: Effect, T: Number>(
     force
 }
 
-/// ∂F_n/∂δ of the step before, which its ledger kept [N/m].
-#[inline(always)]
-fn stiffness_last<R: Lane>(ledger: &[f64]) -> R {
-    let mut last = [0.0; BLOCK];
-    for (k, last) in last.iter_mut().enumerate().take(R::WIDTH) {
-        *last = ledger[k * LEDGER + STIFFNESS];
-    }
-    R::load(&last)
-}
-
 /// Energies of a contact in the step: see [`LEDGER`].
 #[inline(always)]
 fn ledger_row<R: Lane, E: Effect>(
@@ -334,7 +309,7 @@ fn ledger_row<R: Lane, E: Effect>(
         R::select(recent, d, zero),
         R::select(touching, surface, zero),
         R::select(touching, response.lost, zero),
-        R::select(touching, response.stiffness, zero),
+        zero,
     ];
     if E::REACHES {
         // What a contact holds when it breaks is lost.

@@ -15,9 +15,10 @@
 //!
 //! Where one sphere is touched nothing of this is computed. Scalar, in double precision: the same for all widths of lanes, and on a GPU.
 
+use crate::effects::Contact;
 #[cfg(target_arch = "nvptx64")]
 use crate::float::Float as _;
-use crate::simd::Row;
+use crate::simd::{BLOCK, Lane, Row};
 use geom::Vec3;
 
 /// Numbers of a contact: share of its stiffness, the share a step ago over that, and by what m* and 1/m* are multiplied [–].
@@ -29,6 +30,8 @@ pub const ALONE: [f64; PATCH] = [1.0; PATCH];
 const TOGETHER: f64 = 0.957;
 /// Below this share a contact counts as none where one is divided by another.
 const LEAST: f64 = 1e-30;
+/// Largest factor of a contact: those that hardly touch, of which nothing depends on it, stay within single precision.
+const MOST: f64 = 1e6;
 
 /// How the elastic energy of a normal law grows, and whether the contacts of a grain with a wall share it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,6 +104,17 @@ impl Touch {
         let (a, b) = (self.reach, other.reach);
         (a * a + b * b - (self.centre - other.centre).norm_squared()) / (2.0 * (a * b))
     }
+}
+
+/// Part of a patch, from its numbers in columns of a block.
+#[inline(always)]
+pub fn apply<R: Lane>(contact: &mut Contact<R>, patch: &[f64]) {
+    contact.share = R::load(patch);
+    contact.share_before = R::load(&patch[BLOCK..]);
+    let mass = R::load(&patch[2 * BLOCK..]);
+    contact.mass = contact.mass * mass;
+    contact.inertia = contact.inertia * mass;
+    contact.inverse_mass = contact.inverse_mass * R::load(&patch[3 * BLOCK..]);
 }
 
 /// x^(−3/4).
@@ -281,7 +295,7 @@ impl<F: Fn(usize) -> Touch> Patch<'_, F> {
         }
         let [now, before] = share(k);
         let deepest = self.moved(self.deepest, share(self.deepest)[0], push, bodies);
-        let change = before / larger(now, LEAST);
+        let change = (before / larger(now, LEAST)).min(MOST);
         self.moved(k, now, push, bodies).numbers([now, change], &deepest, bodies.inverse_mass)
     }
 }
@@ -333,6 +347,6 @@ impl DampedMass {
         let pace = deepest.force * deepest.inverse / deepest.overlap;
         let stiffness = self.force / self.overlap;
         let inverse = if stiffness > 0.0 { pace / stiffness } else { self.inverse };
-        [shares[0], shares[1], inverse_mass / self.inverse, inverse / inverse_mass]
+        [shares[0], shares[1], inverse_mass / self.inverse, (inverse / inverse_mass).min(MOST)]
     }
 }

@@ -4,6 +4,8 @@ pub mod cell;
 pub mod images;
 pub mod margins;
 #[cfg(not(target_arch = "nvptx64"))]
+pub mod order;
+#[cfg(not(target_arch = "nvptx64"))]
 pub mod rotation;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod search;

@@ -14,6 +14,7 @@ use crate::kernel::wall_point::WallPose;
 use crate::setup::{Mount, Servo, Wall, WallShape};
 use crate::simd::{Row, Row4};
 use crate::space::images::Image;
+use crate::space::order;
 use crate::space::sphere::{FAR, is_away};
 use crate::walls::seams::{HistorySlots, Nearest};
 use geom::motion::{Pose, SurfaceMotion};
@@ -279,26 +280,10 @@ fn span(shape: &WallShape, axis: &Vec3) -> f64 {
     }
 }
 
-/// Which of the spheres that were given is the first, the second, … of their grid.
-pub(crate) fn order_of_spheres(spheres: &[(Vec3, f64)]) -> Vec<u32> {
-    let centres: Vec<Vec3> = spheres.iter().map(|s| s.0).collect();
-    Grid::new(&centres, cell_of_spheres(spheres)).order().to_vec()
-}
-
-/// Length of the cells that wall spheres are sorted by [m].
-fn cell_of_spheres(spheres: &[(Vec3, f64)]) -> f64 {
-    let largest = largest_of(spheres);
-    if largest > 0.0 { 2.0 * largest } else { 1.0 }
-}
-
-fn largest_of(spheres: &[(Vec3, f64)]) -> f64 {
-    spheres.iter().map(|s| s.1).fold(0.0, f64::max)
-}
-
 fn sorted_spheres(spheres: &[(Vec3, f64)]) -> Surface {
-    let (order, largest) = (order_of_spheres(spheres), largest_of(spheres));
+    let (order, largest) = (order::order_of_spheres(spheres), order::largest_of(spheres));
     let centres: Vec<Vec3> = order.iter().map(|&k| spheres[k as usize].0).collect();
-    let grid = Grid::new(&centres, cell_of_spheres(spheres));
+    let grid = Grid::new(&centres, order::cell_of_spheres(spheres));
     let radii = order.iter().map(|&k| spheres[k as usize].1).collect();
     Surface::Spheres { centres, radii, grid, largest, original: order }
 }

@@ -46,6 +46,8 @@ impl Draw {
         self.key(0.1, "shorten", 0.01, 0.3);
         let contacts = self.pick(&["averaged", "sampled", "sampled"]);
         self.maybe(0.4, format!("contacts = \"{contacts}\""));
+        let patch = self.pick(&["shared", "plain"]);
+        self.maybe(0.2, format!("patch = \"{patch}\""));
         if !self.choices.strained {
             self.maybe(0.05, "until_unbalanced = 1e-12");
             self.maybe(0.05, "until_kinetic = 1e-15");
