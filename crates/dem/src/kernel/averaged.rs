@@ -1,9 +1,9 @@
 //! Averaged contacts: the part of a kick in which two touch, and their mean overlap in it.
 //!
-//! Inlined into the contact loop, with no closures, as everything there is.
+//! Also the part of a contact in a patch. Inlined into the contact loop, with no closures, as everything there is.
 
 use crate::effects::Contact;
-use crate::simd::Lane;
+use crate::simd::{BLOCK, Lane};
 
 /// The part of a kick in which contacts act, where that is not the whole of it for all of them: δ(t) ≈ δ + δ̇ t for half a step before the instant
 /// and half a step after it. Contacts whose surfaces part at a gap of `held` [m] act up to there.
@@ -38,4 +38,15 @@ pub fn average<R: Lane>(ahead: f64, c: &mut Contact<R>, held: R) -> Option<R> {
 #[inline(always)]
 pub fn size<R: Lane>(x: R) -> R {
     x.max(R::splat(0.0) - x)
+}
+
+/// Part of a patch, from its numbers in columns of a block.
+#[inline(always)]
+pub fn share<R: Lane>(contact: &mut Contact<R>, patch: &[f64]) {
+    contact.share = R::load(patch);
+    contact.share_before = R::load(&patch[BLOCK..]);
+    let mass = R::load(&patch[2 * BLOCK..]);
+    contact.mass = contact.mass * mass;
+    contact.inertia = contact.inertia * mass;
+    contact.inverse_mass = contact.inverse_mass * R::load(&patch[3 * BLOCK..]);
 }

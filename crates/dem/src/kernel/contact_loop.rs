@@ -3,8 +3,8 @@
 //! Every function is inlined into the loop that is compiled for wide registers, always; a closure or a function that is not calls out for each
 //! operation and takes several times as long.
 
-use super::averaged::{average, size};
-use super::patch::{self, PATCH};
+use super::averaged::{average, share, size};
+use super::patch::PATCH;
 use super::{Batch, LEDGER, LOST, StepInputs, WrenchBuffer};
 use crate::effects::{Contact, DISSIPATORS, Effect, History, Response};
 use crate::simd::{BLOCK, FORCE, FORCE_AND_MOMENT, Indices, Lane, Number, Row, Row4, V, fetch};
@@ -82,7 +82,7 @@ pub fn act<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     let at = block * BLOCK + lane;
     let mut found = geometry::<R, E>(step, batch, ends);
     if !batch.patch.is_empty() {
-        patch::apply::<R>(&mut found.contact, &batch.patch[block * PATCH * BLOCK..][lane..]);
+        share::<R>(&mut found.contact, &batch.patch[block * PATCH * BLOCK..][lane..]);
     }
     let words = E::HISTORY.div_ceil(T::IN_A_WORD) * BLOCK;
     let stored = T::of_mut(&mut batch.history[block * words..(block + 1) * words]);

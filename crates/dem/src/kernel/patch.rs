@@ -15,10 +15,9 @@
 //!
 //! Where one sphere is touched nothing of this is computed. Scalar, in double precision: the same for all widths of lanes, and on a GPU.
 
-use crate::effects::Contact;
 #[cfg(target_arch = "nvptx64")]
 use crate::float::Float as _;
-use crate::simd::{BLOCK, Lane, Row};
+use crate::simd::Row;
 use geom::Vec3;
 
 /// Numbers of a contact: share of its stiffness, the share a step ago over that, and by what m* and 1/m* are multiplied [–].
@@ -104,17 +103,6 @@ impl Touch {
         let (a, b) = (self.reach, other.reach);
         (a * a + b * b - (self.centre - other.centre).norm_squared()) / (2.0 * (a * b))
     }
-}
-
-/// Part of a patch, from its numbers in columns of a block.
-#[inline(always)]
-pub fn apply<R: Lane>(contact: &mut Contact<R>, patch: &[f64]) {
-    contact.share = R::load(patch);
-    contact.share_before = R::load(&patch[BLOCK..]);
-    let mass = R::load(&patch[2 * BLOCK..]);
-    contact.mass = contact.mass * mass;
-    contact.inertia = contact.inertia * mass;
-    contact.inverse_mass = contact.inverse_mass * R::load(&patch[3 * BLOCK..]);
 }
 
 /// x^(−3/4).
