@@ -45,11 +45,14 @@ fn stiffness(law: &'static str, keys: &[(&'static str, f64)]) -> f64 {
     (more - f) / (there - x)
 }
 
+/// How k_t is given: a name, the keys, and the k_t that they mean over k_n.
+type Given = (&'static str, &'static [(&'static str, f64)], f64);
+
 #[test]
 fn every_law_takes_the_tangential_stiffness_that_it_is_given() {
     let setup = empty(HOOKE, 0.5);
     let elastic = Elastic::of(&setup.materials[0], &setup.materials[1]);
-    let linear: [(&str, &[(&str, f64)], f64); 4] = [
+    let linear: [Given; 4] = [
         ("hooke", &[("stiffness", NORMAL), ("restitution", 0.5)], NORMAL),
         ("hooke", &[("stiffness", NORMAL), ("normal_damping", 0.1)], NORMAL),
         ("walton_braun", &[("stiffness", NORMAL), ("restitution", 0.5)], NORMAL),
