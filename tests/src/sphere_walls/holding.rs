@@ -99,8 +99,7 @@ pub fn leaving_tilts(
 
 /// Grains a little above the wall.
 fn laid(spheres: &[(Vec3, f64)], radius: f64, stiffness: f64, places: &[(f64, f64)]) -> Setup {
-    // Each tilt loads new springs at once: what swings least leaves no earlier than the closed answer.
-    let mut setup = empty(Law::Hooke { stiffness, tangential_ratio: None }, 0.02);
+    let mut setup = empty(Law::Hooke { stiffness, tangential_ratio: None }, 0.1);
     setup.gravity = Vec3::new(0.0, 0.0, -9.81);
     setup.walls = vec![still(spheres)];
     setup.step = Step::Auto(0.7);

@@ -69,7 +69,6 @@ fn a_heap_on_spheres_spreads_as_on_a_flat_wall() {
     let flat = (plane(Vec3::z()), 0.0);
     let (on_flat, on_spheres) = (of(&flat, 0.5), of(&rough(0.005), 0.5));
     let off = (on_spheres.mean - on_flat.mean) / (on_spheres.off + on_flat.off);
-    println!("flat {on_flat:?} spheres {on_spheres:?}");
     SAME.within("72 grains, μ = 0.5, 16 starts", off, "of both intervals", 1.0);
     let (on_flat, on_spheres) = (of(&flat, 0.02), of(&rough(0.3), 0.02));
     STANDS.within("72 grains, μ = 0.02 on the wall, ζ/P = 0.3", on_spheres.mean / on_flat.mean, "–", 0.7);
