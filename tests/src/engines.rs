@@ -43,7 +43,7 @@ pub fn column(frame: &Table, name: &str) -> Vec<f64> {
     rows.into_iter().map(|row| row.1).collect()
 }
 
-/// Runs the scene `s.toml` of a folder on both engines, ours with forces sampled at instants.
+/// Runs the scene `s.toml` of a folder on both engines, ours with forces sampled at instants and each contact by itself.
 ///
 /// # Panics
 /// When one of them fails.
@@ -56,7 +56,8 @@ pub fn both(folder: &Path, more: &[&str]) -> [Vec<Table>; 2] {
 /// # Panics
 /// When one of them fails.
 pub fn both_with(folder: &Path, lmp: &str, more: &[&str]) -> [Vec<Table>; 2] {
-    let given = [&["s.toml", "-q", "--set", "time.contacts=sampled"], more].concat();
+    let given =
+        [&["s.toml", "-q", "--set", "time.contacts=sampled", "--set", "time.patch=plain"], more].concat();
     succeed(folder, "dem-run", &[&given[..], &["-o", "ours.mcap"]].concat());
     succeed(folder, "dem-lammps", &[&given[..], &["--lmp", lmp, "-o", "theirs.mcap"]].concat());
     ["ours.mcap", "theirs.mcap"].map(|name| frames(&folder.join(name)))

@@ -12,7 +12,7 @@ use crate::inflow::Inflow;
 use crate::job::Job;
 use crate::process::{Engine, Place};
 use crate::refusal::{self, Allowed, Refusal};
-use dem::setup::Setup;
+use dem::setup::{Setup, WallShape};
 use run::{Progress, RunError, RunFile, Schedule};
 use scene::keys::{Patches, Sampling};
 use scene::{Plan, Scene};
@@ -61,9 +61,27 @@ pub struct Outcome {
 }
 
 /// Makes a scene sample forces at instants, and each contact act by itself, as LAMMPS does: the time step is chosen for that.
-pub fn sampled(scene: &mut Scene) {
-    scene.keys.time.contacts = Sampling::Sampled;
-    scene.keys.time.patch = Patches::Plain;
+///
+/// What the user should know of a scene that asked for contacts that act together is given for the plan of it.
+pub fn sampled(scene: &mut Scene) -> impl Fn(&Setup) -> Option<String> + use<> {
+    let time = &mut scene.keys.time;
+    time.contacts = Sampling::Sampled;
+    let shared = std::mem::replace(&mut time.patch, Patches::Plain) == Patches::Shared;
+    move |setup| alone(setup).filter(|_| shared)
+}
+
+/// Says that contacts of two bodies act by themselves, where two bodies may touch at several places.
+fn alone(setup: &Setup) -> Option<String> {
+    let spheres = |wall: &dem::setup::Wall| matches!(wall.shape, WallShape::Spheres(_));
+    let of = match (setup.walls.iter().any(spheres), !setup.clumps.shapes.is_empty()) {
+        (true, true) => "walls of spheres and of clumps",
+        (true, false) => "walls of spheres",
+        (false, true) => "clumps",
+        (false, false) => return None,
+    };
+    Some(format!(
+        "each contact of {of} acts by itself in LAMMPS, so that rebounds are weaker than those of dem-run: to compare, run dem-run with --set time.patch=plain"
+    ))
 }
 
 /// A scene that is ready for LAMMPS.

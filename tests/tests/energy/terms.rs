@@ -156,7 +156,9 @@ fn rolling() {
             if model == "constant" && precision != Precision::Double {
                 continue;
             }
-            let mut setup = resting(&normal, precision, 0.9, 1.0);
+            // A constant torque begins and ends at once: the dashpot of sliding takes what goes to and fro on its spring.
+            let restitution = if model == "constant" { 0.5 } else { 1.0 };
+            let mut setup = resting(&normal, precision, 0.9, restitution);
             for c in &mut setup.contacts {
                 grainpipe_tests::setups::rolling(c, 0.5, model);
             }
@@ -164,7 +166,11 @@ fn rolling() {
             (setup.particles[0].velocity.x, setup.particles[0].spin.y) = (speed, spin);
             let answer = 0.5 * m * speed * speed + half_inertia() * spin * spin;
             let name = name(&format!("rolling ball, {model:?}"), &normal, precision);
-            Alone { name, setup, until: 0.2, step: 0.01 }.holds(|e| e.rolling, answer);
+            let taken = |e: &Energy| {
+                assert!(e.sliding < 3e-3 * answer, "{e:?}");
+                e.rolling + e.sliding
+            };
+            Alone { name, setup, until: 0.2, step: 0.01 }.holds(taken, answer);
         }
     }
 }

@@ -19,13 +19,13 @@ const RUBBING: [Rubbing; 8] = [
     ("twisting", |c| rub(c, &["twisting_resistance"]), &[24, 8]),
     ("rolling and twisting", |c| rub(c, &["rolling_resistance", "twisting_resistance"]), &[24, 24, 8]),
     (
-        "all that has no memory",
+        "weakening, constant rolling and twisting",
         |c| {
             constant(c);
             weakening(c);
             c.set("twisting_resistance", 0.05);
         },
-        &[24, 0, 8],
+        &[24, 24, 8],
     ),
 ];
 

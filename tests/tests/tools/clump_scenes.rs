@@ -243,6 +243,7 @@ poisson = 0.25
 between = ["*", "*"]
 restitution = 0.3
 sliding_friction = 0.5
+rolling_resistance = 0.1
 [[clump]]
 name = "pair"
 material = "stone"
@@ -296,7 +297,7 @@ fn clumps_of_a_run_go_on_as_they_lie() {
     let (on, next) = (read(&file("on.mcap"), "/bodies", "").0, read(&file("next.mcap"), "/bodies", "").0);
     let (on, next) = (on.last().expect("a frame"), next.last().expect("a frame"));
     let most = ["x", "y", "z"].map(|name| apart(on, next, name)).into_iter().fold(0.0, f64::max);
-    assert!(most < 1e-9, "{most} m apart");
+    assert!(most < 1e-10, "{most} m apart");
 }
 
 /// Largest difference in a column.

@@ -114,6 +114,8 @@ fn what_comes_in_through_a_wall_is_booked_when_it_acts() {
         setup.inlets = vec![zone(0.05, 0.03)];
         (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
         let wall = format!("{:?}", std::mem::discriminant(&setup.walls[0].shape));
+        let flat = !matches!(setup.walls[0].shape, WallShape::Spheres(_));
+        setup.step = Step::Fixed(if flat { 1e-5 } else { 2.5e-6 });
         let mut sim = Simulation::new(setup).expect("sound");
         let depth = 0.004;
         let start = Particle { velocity: Vec3::x(), ..grain(0, Vec3::new(0.02, 0.0, 0.01 - depth)) };
@@ -125,17 +127,22 @@ fn what_comes_in_through_a_wall_is_booked_when_it_acts() {
             let all = [e.elastic, e.entered, e.left, e.normal, e.sliding, e.integration, e.balance()];
             assert!(all.iter().all(|x| x.abs() < 1e-15), "wall {wall}, {} s: {e:?}", sim.time());
         }
+        let mut first = None;
         while sim.time() < 0.033 {
             sim.step().expect("within the guards");
+            let e = sim.energy().expect("ready");
+            first = first.or((e.entered > 0.0).then_some(e.elastic));
         }
-        let e = sim.energy().expect("ready");
-        // Its tangential spring holds μ F_n, with k_t/k_n = 2(1 − ν)/(2 − ν).
-        let tangential = 0.25 * 1.75 / 1.5;
-        let (moves, holds) = (0.5 * dem::mass(0.01, 2500.0), 0.5 * 1e4 * depth * depth * (1.0 + tangential));
-        assert!((e.entered / (moves + holds) - 1.0).abs() < 0.05, "wall {wall}: {} J came in", e.entered);
+        let (e, held) = (sim.energy().expect("ready"), first.expect("it came in"));
+        let moves = 0.5 * dem::mass(0.01, 2500.0);
+        assert!((e.entered / (moves + held) - 1.0).abs() < 2e-3, "wall {wall}: {} J came in", e.entered);
+        // Its tangential spring holds μ F_n, with k_t/k_n = 2(1 − ν)/(2 − ν). Of this wall of spheres a dozen are pressed at once.
+        let one = 0.5 * 1e4 * depth * depth * (1.0 + 0.25 * 1.75 / 1.5);
+        let least = if flat { 0.95 } else { 1.0 };
+        assert!(held > least * one && (held < 1.05 * one || !flat), "wall {wall}: it held {held} J");
         assert!(
-            e.integration.abs() < 1e-3 * holds,
-            "wall {wall}: the step made {} J of {holds} J",
+            e.integration.abs() < 1e-3 * held,
+            "wall {wall}: the step made {} J of {held} J",
             e.integration
         );
         assert!(e.balance().abs() < 1e-12, "wall {wall}: {} J", e.balance());

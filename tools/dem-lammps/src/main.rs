@@ -26,12 +26,13 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
     args.check()?;
     let mut scene = read_scene(&args)?;
     cli::also_reads(scene.files())?;
-    lammps::sampled(&mut scene);
+    let alone = lammps::sampled(&mut scene);
     let mut inputs = Vec::new();
     for source in &args.inputs {
         inputs.push(Input::open(&source.to_string(), source.open()?)?);
     }
     let mut plan = scene.plan(inputs)?;
+    plan.warnings.extend(alone(&plan.setup));
     plan.warnings.iter().for_each(|note| cli::warn(note));
     let engine = engine(&args);
     let version = version(&args, &engine, &plan)?;

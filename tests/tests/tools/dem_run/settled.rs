@@ -37,7 +37,7 @@ fn a_settled_bed_stays_at_rest_in_the_next_scene() {
     let fill = "[[fill]]\nmaterial = \"glass\"\nshape = \"box:0,0,0,0.05,0.05,0.08\"\ndiameter = [0.009, 0.011]\ncount = 80\n";
     let next = format!("{HEAD}[[particles]]\nsource = \"bed.mcap\"\n");
     let folder = folder(&[("bed.toml", format!("{HEAD}{fill}")), ("next.toml", next)]);
-    succeed(folder.path(), "dem-run", &["bed.toml", "--until", "0.6", "-o", "bed.mcap"]);
+    succeed(folder.path(), "dem-run", &["bed.toml", "--until", "1", "-o", "bed.mcap"]);
     let run = |name: &str, set: &[&str]| {
         let options = [&["next.toml", "--until", "0.02", "-o", name], set].concat();
         succeed(folder.path(), "dem-run", &options);
