@@ -38,6 +38,8 @@ pub struct Rule<'a> {
     pub without: &'a [&'a str],
     /// How exact.
     pub tolerance: Tolerance<'a>,
+    /// Period of each axis in the second answer [m], 0 where there is none: a contact across a face is at either side of the cell.
+    pub periods: [f64; 3],
 }
 
 /// What a scene of other words has in common with the first one.
@@ -68,6 +70,7 @@ impl<'a> Rule<'a> {
             topics,
             without: &[],
             tolerance: Tolerance::Bits,
+            periods: [0.0; 3],
         }
     }
 }
@@ -186,7 +189,7 @@ fn matched(topic: &str, a: &Rows, b: &Rows, rule: &Rule) -> Result<BTreeMap<Stri
                 j += 1;
             }
             std::cmp::Ordering::Equal => {
-                row(topic, a, b, [&first[i], &second[j]], &largest, &mut found);
+                row(topic, a, b, [&first[i], &second[j]], &largest, rule, &mut found);
                 (i, j) = (i + 1, j + 1);
             }
         }
@@ -245,6 +248,7 @@ fn row(
     b: &Rows,
     rows: [&Named; 2],
     largest: &[f64],
+    rule: &Rule,
     found: &mut BTreeMap<String, Worst>,
 ) {
     let mut group = String::new();
@@ -262,7 +266,9 @@ fn row(
         }
         let values = [rows[0].values[k], rows[1].values[at]];
         let same = values[0] == values[1] || values.iter().all(|v| v.is_nan());
-        let deviation = if same { 0.0 } else { (values[0] - values[1]).abs() };
+        let axis = ["x", "y", "z"].iter().position(|axis| name == axis);
+        let period = axis.filter(|_| topic == topic::CONTACTS).map_or(0.0, |axis| rule.periods[axis]);
+        let deviation = if same { 0.0 } else { apart(values, period) };
         let deviation = if deviation.is_nan() { f64::INFINITY } else { deviation };
         keep(
             found,
@@ -270,6 +276,12 @@ fn row(
             Worst { deviation, row: rows[0].name.clone(), values, largest: largest[k] },
         );
     }
+}
+
+/// Distance of two numbers, of which whole periods do not count where there are any.
+fn apart([a, b]: [f64; 2], period: f64) -> f64 {
+    let way = a - b;
+    if period > 0.0 { (way - period * (way / period).round()).abs() } else { way.abs() }
 }
 
 /// Rows under their names, in the frame and units of the second answer, in the order of names.

@@ -25,7 +25,7 @@ checkpoint = 0.2
 [[material]]
 name = "stone"
 density = 2500
-young = 5e7
+young = 1.5e8
 poisson = 0.25
 [[contact]]
 between = ["*", "*"]

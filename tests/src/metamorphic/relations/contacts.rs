@@ -35,8 +35,8 @@ fn law(keys: &[(&str, Value)]) -> Table {
     [("between".to_owned(), all)].into_iter().chain(keys).collect()
 }
 
-/// Largest difference over the largest speed: friction is computed with the stiffness of unloading, to the order of the step [–].
-const YIELDING: f64 = 1e-6;
+/// Largest difference over the largest speed: friction's spring is ahead of the instant by what the stiffness of unloading asks for, (ω Δt)²/4 of its way [–].
+const YIELDING: f64 = 1e-5;
 
 /// While it is loaded, a spring that yields is a linear one, along the contact and across it.
 pub fn loading(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {

@@ -43,7 +43,8 @@ fn is_hooke_by_velocity(contact: &Table) -> bool {
 fn turned(case: &Case, turn: [[f64; 3]; 3]) -> Option<Verdict> {
     let transform = Transform { turn, ..Transform::default() };
     let scene = transform.scene(&case.scene);
-    Some(case.ask(&scene, &[], &Rule { transform, tolerance: case.rounding(1e-10), ..Rule::bits(ALL) }))
+    let (tolerance, periods) = (case.rounding(1e-10), periods_of_axes(&scene));
+    Some(case.ask(&scene, &[], &Rule { transform, tolerance, periods, ..Rule::bits(ALL) }))
 }
 
 /// One axis reversed: cells are in another order, and so are sums over contacts.
@@ -100,7 +101,8 @@ pub fn shifted(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let shift = [0.0; 3].map(|_: f64| random.random_range(-0.2..0.2));
     let transform = Transform { shift, ..Transform::default() };
     let scene = transform.scene(&case.scene);
-    Some(case.ask(&scene, &[], &Rule { transform, tolerance: case.rounding(1e-9), ..Rule::bits(MOVED) }))
+    let (tolerance, periods) = (case.rounding(1e-9), periods_of_axes(&scene));
+    Some(case.ask(&scene, &[], &Rule { transform, tolerance, periods, ..Rule::bits(MOVED) }))
 }
 
 /// The periodic axes of a scene, with low corner and period.
@@ -110,6 +112,13 @@ fn periods(scene: &Scene) -> Vec<(usize, f64, f64)> {
     let names = scene.get("domain.periodic").and_then(Value::as_array).into_iter().flatten();
     let axes = names.filter_map(|n| ["x", "y", "z"].iter().position(|a| n.as_str() == Some(a)));
     axes.map(|k| (k, low[k], high[k] - low[k])).collect()
+}
+
+/// Period of each axis [m]; 0 where it has none.
+fn periods_of_axes(scene: &Scene) -> [f64; 3] {
+    let mut of = [0.0; 3];
+    periods(scene).into_iter().for_each(|(axis, _, period)| of[axis] = period);
+    of
 }
 
 /// Grains and walls are shifted along periodic axes, and the cell stays: grains cross its faces elsewhere.
