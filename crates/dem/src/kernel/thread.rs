@@ -51,11 +51,7 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
             t.table(t.particles.spins, if layout.rotates { t.particle_count + 2 } else { 0 });
         let mut patch = [1.0; PATCH * BLOCK];
         if kind.patch > 0 {
-            let numbers = if E::HISTORY > 0 {
-                share::<true>(t, step, kind, (block.kind, i), slot)
-            } else {
-                share::<false>(t, step, kind, (block.kind, i), slot)
-            };
+            let numbers = share::<true>(t, step, kind, (block.kind, i), slot, E::HISTORY > 0);
             numbers.iter().enumerate().for_each(|(c, number)| patch[c * BLOCK] = *number);
         }
         let (row, spin) = partner(
@@ -121,18 +117,19 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
     }
 }
 
-/// What part the contact in a slot, of particle `i` and a kind of this number, has in its patch of wall spheres. Not inlined: one
-/// copy serves all compositions whose springs know their stiffness a step ago, one the others. (Generic: a function that is not would stay in the library.)
+/// What part the contact in a slot, of particle `i` and a kind of this number, has in its patch of wall spheres; `remembers`: whether springs know their
+/// stiffness a step ago. Not inlined, so that one copy serves all compositions; generic, or that copy would stay in the library.
 ///
 /// # Safety
 /// Tables are in place.
 #[inline(never)]
-unsafe fn share<const REMEMBERS: bool>(
+unsafe fn share<const COPY: bool>(
     t: &DeviceTables,
     step: u32,
     kind: &DeviceKind,
     (number, i): (u32, u32),
     slot: usize,
+    remembers: bool,
 ) -> [f64; PATCH] {
     // SAFETY: by contract.
     unsafe {
@@ -158,7 +155,7 @@ unsafe fn share<const REMEMBERS: bool>(
         let push = patch.push(|k| patch.share(k, Instant::Now));
         patch.numbers(slot - from, &push, &bodies, |k| {
             let now = patch.share(k, Instant::Now);
-            [now, if REMEMBERS { patch.share(k, Instant::Before) } else { now }]
+            [now, if remembers { patch.share(k, Instant::Before) } else { now }]
         })
     }
 }
