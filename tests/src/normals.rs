@@ -71,6 +71,7 @@ pub fn still(overlap: f64, radius: f64, curvature: f64) -> Contact<f64> {
         slip: V::zero(),
         spin: V::zero(),
         lever: 0.0,
+        stiffness_last: 0.0,
         inertia: 4e-7,
         turn: 0.0,
     }

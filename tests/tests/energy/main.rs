@@ -3,6 +3,7 @@
 
 mod closing;
 mod guard;
+mod oblique;
 mod order;
 mod scenes;
 mod sticking;

@@ -99,6 +99,8 @@ pub struct Contact<R: Lane> {
     pub lever: R,
     /// Inertia against turning against each other, 1/(1/I_i + 1/I_j) [kg·m²]; of contacts with torques.
     pub inertia: R,
+    /// ∂F_n/∂δ that the step before had, 0 where it is not known [N/m]; the ledger alone asks for it.
+    pub stiffness_last: R,
     /// How far the two turn together about n in a step, ½ (ω_i + ω_j)·n Δt [rad].
     pub turn: R,
 }
@@ -133,8 +135,12 @@ pub struct Response<R: Lane> {
 impl<R: Lane> Response<R> {
     /// ∂F_n/∂δ a step ago: over the one now as springs take it, and as they held energy [–], and of a contact that has just ended [N/m].
     #[inline(always)]
-    pub fn earlier(&self) -> [R; 3] {
-        [self.stiffness_before, self.stiffness_before, self.stiffness_last]
+    pub fn earlier(&self, contact: &Contact<R>) -> [R; 3] {
+        let last = contact.stiffness_last;
+        let known = last.gt(R::splat(0.0));
+        let booked = last / self.stiffness.max(R::splat(R::TINY));
+        let ended = R::select(known, last, self.stiffness_last);
+        [self.stiffness_before, R::select(known, booked, self.stiffness_before), ended]
     }
 
     /// No force.

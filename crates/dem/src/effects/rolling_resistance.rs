@@ -77,7 +77,7 @@ impl Effect for RollingResistance {
         let rolling = contact.spin - n.scale(contact.spin.dot(n));
         let arm = R::splat(self.resistance) * contact.radius;
         let stiffness = (R::splat(2.25) * response.stiffness * arm * arm).max(R::splat(R::TINY));
-        let [before, booked, last] = response.earlier();
+        let [before, booked, last] = response.earlier(contact);
         let spring = CappedSpring {
             touching: contact.touching,
             stiffness,

@@ -112,7 +112,7 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
         // A stiffness of 0 at δ = 0 (Hertz) would be divided by; nothing holds there in any case.
         let stiffness = (R::splat(self.stiffness_ratio) * response.stiffness).max(R::splat(R::TINY));
         let of_law = R::splat(self.damping_ratio * self.stiffness_ratio.sqrt()) * response.impedance;
-        let [before, booked, last] = response.earlier();
+        let [before, booked, last] = response.earlier(contact);
         let spring = CappedSpring {
             touching: contact.touching,
             stiffness,

@@ -81,7 +81,7 @@ impl Effect for TwistingResistance {
         let square = contact.radius * contact.radius;
         let stiffness = (R::splat(self.stiffness_ratio) * response.stiffness * square).max(R::splat(1e-150));
         let inertia = R::splat(0.4) * contact.mass * square;
-        let [before, booked, last] = response.earlier();
+        let [before, booked, last] = response.earlier(contact);
         let spring = CappedSpring {
             touching: contact.touching,
             stiffness,

@@ -5,7 +5,7 @@
 
 use super::averaged::{average, share, size};
 use super::patch::PATCH;
-use super::{Batch, LEDGER, LOST, StepInputs, WrenchBuffer};
+use super::{Batch, LEDGER, LOST, STIFFNESS, StepInputs, WrenchBuffer};
 use crate::effects::{Contact, DISSIPATORS, Effect, History, Response};
 use crate::simd::{BLOCK, FORCE, FORCE_AND_MOMENT, Indices, Lane, Number, Row, Row4, V, fetch};
 
@@ -93,6 +93,9 @@ pub fn act<R: Lane, E: Effect, T: Number, const KEEP: bool>(
         let touches = found.contact.touching;
         let beyond = R::select(touches, found.reach, found.contact.overlap + was_held);
         found.contact.touching = beyond.gt(R::splat(0.0));
+    }
+    if KEEP {
+        found.contact.stiffness_last = stiffness_last(&batch.ledger[at * LEDGER..]);
     }
     let part = if step.ahead > 0.0 { average(step.ahead, &mut found.contact, was_held) } else { None };
     let touching = found.contact.touching;
@@ -244,6 +247,7 @@ fn geometry<R: Lane, E: Effect>(step: &StepInputs, batch: &Batch, ends: Ends<R>)
         spin,
         lever,
         inertia,
+        stiffness_last: zero,
         turn,
     };
     Geometry { contact, reach, share, surface, spin_j }
@@ -282,6 +286,16 @@ fn scatter<R: Lane, E: Effect, T: Number>(
     force
 }
 
+/// ∂F_n/∂δ of the step before, which its ledger kept [N/m].
+#[inline(always)]
+fn stiffness_last<R: Lane>(ledger: &[f64]) -> R {
+    let mut last = [0.0; BLOCK];
+    for (k, last) in last.iter_mut().enumerate().take(R::WIDTH) {
+        *last = ledger[k * LEDGER + STIFFNESS];
+    }
+    R::load(&last)
+}
+
 /// Energies of a contact in the step: see [`LEDGER`].
 #[inline(always)]
 fn ledger_row<R: Lane, E: Effect>(
@@ -309,7 +323,7 @@ fn ledger_row<R: Lane, E: Effect>(
         R::select(recent, d, zero),
         R::select(touching, surface, zero),
         R::select(touching, response.lost, zero),
-        zero,
+        R::select(touching, response.stiffness, zero),
     ];
     if E::REACHES {
         // What a contact holds when it breaks is lost.

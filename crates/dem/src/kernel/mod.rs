@@ -32,6 +32,8 @@ use std::marker::PhantomData;
 pub const LEDGER: usize = 8;
 /// Column of what is lost at once.
 pub const LOST: usize = 6;
+/// Column of ∂F_n/∂δ, for the step after [N/m].
+pub const STIFFNESS: usize = 7;
 
 /// What all contacts share in one step.
 #[derive(Clone, Copy)]

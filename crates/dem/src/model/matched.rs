@@ -211,6 +211,7 @@ fn head_on(overlap: f64, approach: f64, dt: f64) -> Contact<f64> {
         slip: V::zero(),
         spin: V::zero(),
         lever: 0.0,
+        stiffness_last: 0.0,
         inertia: 0.4,
         turn: 0.0,
     }

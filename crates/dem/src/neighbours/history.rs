@@ -110,11 +110,11 @@ impl<'a> Finder<'a> {
     }
 }
 
-/// Gives each new contact its history, and the work that it has done. What contacts have done that are no longer listed is lost to records.
+/// Gives each new contact its history, the work that it has done, and the stiffness at which its springs were booked. What contacts have done that are no longer listed is lost to records.
 pub fn carry_over(model: &Model, state: &mut State, lists: &NeighbourLists, old: &OldContacts) {
     let finder = Finder::new(model, old, &lists.wall_periods);
     let (slots, many) = (&lists.slots, state.particles.len() >= LISTED_FEW);
-    let ContactColumns { layout, history, work, .. } = &mut state.contacts;
+    let ContactColumns { layout, history, work, stiffness, .. } = &mut state.contacts;
     if !history.is_empty() && !old.columns.history.is_empty() {
         let mut rest = &mut history[..];
         let mut pieces = Vec::with_capacity(slots.segments.len());
@@ -126,13 +126,15 @@ pub fn carry_over(model: &Model, state: &mut State, lists: &NeighbourLists, old:
         }
         share(many, pieces, |(s, history)| finder.fill(slots, s, history));
     }
-    if !old.columns.work.is_empty() {
-        *work = vec![0.0; slots.i.len()];
+    for (column, before) in [(work, &old.columns.work), (stiffness, &old.columns.stiffness)] {
+        if before.is_empty() {
+            continue;
+        }
+        *column = vec![0.0; slots.i.len()];
         for s in &slots.segments {
             for slot in s.contacts() {
-                let holds = |_: &Segment, slot: usize| old.columns.work[slot] != 0.0;
-                let was = finder.find(slots, s, slot, holds);
-                work[slot] = was.map_or(0.0, |was| old.columns.work[was.slot]);
+                let holds = |_: &Segment, slot: usize| before[slot] != 0.0;
+                column[slot] = finder.find(slots, s, slot, holds).map_or(0.0, |was| before[was.slot]);
             }
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! Which contact has which slot follows from Model and State ([`crate::neighbours`]); these columns do not.
 
-use crate::kernel::{LEDGER, WrenchSlices, WrenchSlicesMut, WrenchSums};
+use crate::kernel::{LEDGER, STIFFNESS, WrenchSlices, WrenchSlicesMut, WrenchSums};
 use crate::simd::{Aligned, Layout};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -19,6 +19,8 @@ pub struct ContactColumns {
     pub history: Aligned,
     /// Sliding work of each contact since it was recorded [J]; empty without the ledger.
     pub work: Vec<f64>,
+    /// ∂F_n/∂δ of each contact in the last step, at which its springs were booked [N/m]; empty without the ledger.
+    pub stiffness: Vec<f64>,
     /// Energies of each contact in the last step, [`LEDGER`] numbers a slot [J]; empty without the ledger.
     pub ledger: Aligned,
     /// Wrench of each contact, where it is kept.
@@ -80,9 +82,11 @@ impl ContactColumns {
         (self.wrenches, self.keeps) = Default::default();
         self.ledger = Aligned::zeros(slots * LEDGER);
         self.work.resize(slots, 0.0);
+        self.stiffness.resize(slots, 0.0);
+        self.know_stiffness();
     }
 
-    /// Frees all but history and work.
+    /// Frees all but history, work and stiffness.
     pub fn release(&mut self) {
         (self.sums, self.ledger) = Default::default();
         (self.wrenches, self.keeps) = Default::default();
@@ -117,10 +121,18 @@ impl ContactColumns {
         self.ledger.chunks_exact(LEDGER).map(|row| row[0]).sum()
     }
 
-    /// Adds the sliding work of one step; the ledger has been computed.
+    /// Adds the sliding work of one step, and keeps the stiffness; the ledger has been computed.
     pub fn add_work(&mut self) {
         let sliding = self.ledger.chunks_exact(LEDGER).map(|row| row[SLIDING]);
         self.work.iter_mut().zip(sliding).for_each(|(work, step)| *work += step);
+        let stiffness = self.ledger.chunks_exact(LEDGER).map(|row| row[STIFFNESS]);
+        self.stiffness.iter_mut().zip(stiffness).for_each(|(own, step)| *own = step);
+    }
+
+    /// Gives rows of the ledger that were made anew the stiffness at which springs were booked.
+    pub fn know_stiffness(&mut self) {
+        let rows = self.ledger.chunks_exact_mut(LEDGER);
+        rows.zip(&self.stiffness).for_each(|(row, own)| row[STIFFNESS] = *own);
     }
 }
 
@@ -130,6 +142,7 @@ pub struct SavedColumns<'a> {
     /// Contact history.
     pub history: Cow<'a, [f64]>,
     work: Cow<'a, [f64]>,
+    stiffness: Cow<'a, [f64]>,
     /// Forces, torques and ledger of each contact, when they are those of this step and kept.
     wrenches: [Cow<'a, [f64]>; 3],
     /// Sums of forces and torques by particle, when they are those of this step and each contact's are not kept.
@@ -140,7 +153,7 @@ impl SavedColumns<'_> {
     /// The columns of an instant. `known`: forces of this instant are; `sleep`: wrenches between sleepers, which are those of the step in
     /// which they fell asleep, last.
     pub fn of(columns: &ContactColumns, known: bool, sleep: bool) -> SavedColumns<'_> {
-        let ContactColumns { history, work, ledger, wrenches, keeps, sums, .. } = columns;
+        let ContactColumns { history, work, stiffness, ledger, wrenches, keeps, sums, .. } = columns;
         let none = &[][..];
         let wrenches = match (known || sleep, keeps) {
             (true, true) => [&wrenches.forces[..], &wrenches.torques, ledger],
@@ -151,6 +164,7 @@ impl SavedColumns<'_> {
         SavedColumns {
             history: Cow::Borrowed(history),
             work: Cow::Borrowed(work),
+            stiffness: Cow::Borrowed(stiffness),
             wrenches: wrenches.map(Cow::Borrowed),
             sums: sums.map(Cow::Borrowed),
         }
@@ -164,6 +178,7 @@ impl SavedColumns<'_> {
         SavedColumns {
             history: own(self.history),
             work: own(self.work),
+            stiffness: own(self.stiffness),
             wrenches: self.wrenches.map(own),
             sums: self.sums.map(own),
         }
@@ -179,10 +194,14 @@ impl SavedColumns<'_> {
         self.sums.iter().any(|column| !column.is_empty())
     }
 
-    /// Puts history and work into columns of newly made lists; false where they have another number of contacts.
+    /// Puts history, work and stiffness into columns of newly made lists; false where they have another number of contacts.
     pub fn restore_history(&self, columns: &mut ContactColumns) -> bool {
         if self.work.len() == columns.work.len() {
             columns.work.copy_from_slice(&self.work);
+        }
+        if self.stiffness.len() == columns.stiffness.len() {
+            columns.stiffness.copy_from_slice(&self.stiffness);
+            columns.know_stiffness();
         }
         copy(&self.history, &mut columns.history)
     }
