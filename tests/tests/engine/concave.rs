@@ -129,3 +129,44 @@ fn facets_tend_to_the_cylinder() {
     let found = [32, 64, 128].map(off);
     assert!(found[1] < 0.4 * found[0] && found[2] < 0.4 * found[1], "{found:?}");
 }
+
+/// Two walls that meet are one surface: grains that come down about the seam of two plates go where one mesh of both sends them, whichever wall is named
+/// first; so they do on plates that lie within each other.
+#[test]
+fn walls_that_meet_are_one_surface() {
+    for (law, restitution) in [(HOOKE, 1.0), (Law::Hertz, 0.5)] {
+        for degrees in [0.0, 7.0, 30.0f64] {
+            let (sin, cos) = (0.5 * degrees.to_radians()).sin_cos();
+            let points = [[-0.1 * cos, 0.1 * sin], [0.0, 0.0], [0.1 * cos, 0.1 * sin]];
+            let one = vec![trough(&points)];
+            let [left, right] = [trough(&points[..2]), trough(&points[1..])];
+            let others =
+                [vec![left.clone(), right.clone()], vec![right, left.clone()], vec![one[0].clone(), left]];
+            let after = |walls: Vec<Wall>| {
+                let mut setup = empty(law, restitution);
+                setup.walls = walls;
+                let velocity = Vec3::new(0.3, 0.1, -1.0);
+                let place = |k: u32| {
+                    let across = (f64::from(k) / 14.0 - 0.5) * RADIUS;
+                    Vec3::new(across, 0.025 * f64::from(k) - 0.175, RADIUS / cos + across.abs() * sin)
+                        - velocity * 2e-3
+                };
+                setup.particles = (0..15).map(|k| Particle { velocity, ..grain(k, place(k)) }).collect();
+                let mut sim = Simulation::new(setup).expect("sound");
+                run_until(&mut sim, 0.02);
+                particles(&mut sim)
+            };
+            let wanted = after(one);
+            for (n, walls) in others.into_iter().enumerate() {
+                for (found, wanted) in after(walls).iter().zip(&wanted) {
+                    let off = (found.velocity - wanted.velocity).norm();
+                    assert!(
+                        off < 1e-9,
+                        "{law:?}, {degrees}°, order {n}: grain {} is {off} m/s off",
+                        found.id
+                    );
+                }
+            }
+        }
+    }
+}

@@ -171,6 +171,7 @@ impl TileSlice<'_> {
             let rows = &mut self.rows[first + from..first + to];
             let spins = rows_mut(self.spins, first + from, to - from);
             inputs.model.walls[wall].contact_points(
+                (&inputs.model.walls, wall),
                 (&pose, &inputs.lengths),
                 row,
                 &partner[from..to],

@@ -42,7 +42,7 @@ use crate::setup::Setup;
 use crate::simd::{Layout, Precision, Width};
 use crate::space::cell::Cell;
 use crate::space::search::FIRST_SKIN;
-use crate::walls::WallBody;
+use crate::walls::{self, WallBody};
 
 /// Steps that margins are made for; chosen on the bench pile.
 const HORIZON: f64 = 100.0;
@@ -125,7 +125,8 @@ impl Model {
         let skin = setup.skin.unwrap_or(FIRST_SKIN * mean_radius).max(reach);
         let horizon = if setup.skin.is_some() { 0.0 } else { HORIZON };
         let ahead = setup.sampling.ahead(dt);
-        let walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach, ahead)).collect();
+        let mut walls: Vec<WallBody> = setup.walls.iter().map(|w| WallBody::new(w, reach, ahead)).collect();
+        walls::beside::find(&mut walls, setup.periodic.iter().any(Option::is_some));
         slow_enough(&setup, &walls, dt)?;
         faster_than_sleep(&setup, &walls)?;
         let responses = responses(&setup, &kinds, dt);

@@ -7,6 +7,7 @@
 //! The surface of a belt moves on its wall, which stays where it is: at a contact with the normal n a contact point has the velocity of the wall
 //! plus v_s − (v_s·n) n, with v_s that of the surface there. So a belt drives along itself and never pushes.
 
+pub(crate) mod beside;
 pub(crate) mod seams;
 mod translation;
 
@@ -42,6 +43,8 @@ pub struct WallBody {
     ahead: f64,
     /// Lowest and highest corner at t = 0 [m].
     pub bounds: [Vec3; 2],
+    /// Meshes that keep their place beside this one: one surface together ([`beside`]).
+    beside: Vec<usize>,
 }
 
 #[derive(Debug, Clone)]
@@ -83,6 +86,7 @@ impl WallBody {
             servo: wall.servo.clone(),
             mount: wall.mount,
             bounds: bounds(&surface),
+            beside: Vec::new(),
             surface,
             reach,
             ahead,
@@ -215,9 +219,11 @@ impl WallBody {
         if let Surface::Plane(plane) = &self.surface { Some(plane) } else { None }
     }
 
-    /// Contact points of one particle, whose position and radius are `row`, on the wall in a pose: `partners` are all that it may touch.
+    /// Contact points of one particle, whose position and radius are `row`, on the wall in a pose, number `own` of `walls`: `partners` are all that it may
+    /// touch.
     pub fn contact_points(
         &self,
+        (walls, own): (&[WallBody], usize),
         (wall, period): (&WallPose, &Vec3),
         row: &Row,
         partners: &[u32],
@@ -259,7 +265,12 @@ impl WallBody {
                 } else {
                     0.0
                 };
-                seams::count(&mut near, row[3], self.reach + way);
+                if self.beside.is_empty() {
+                    seams::count(&mut near, row[3], self.reach + way);
+                } else {
+                    let image = |k: usize| (partners[k], local(k));
+                    beside::count(walls, own, &mut near, image, (row[3], self.reach + way));
+                }
                 slots.take_over(&near, row[3]);
                 for (k, point) in near.iter().enumerate() {
                     // What is no contact of its own is put out of reach.
@@ -337,7 +348,8 @@ mod tests {
                 let active = &mut [];
                 let slots = HistorySlots { history, active, layout: Layout::default(), first: 0, columns: 0 };
                 let pose = body.pose(&wall.motion.pose(0.0));
-                body.contact_points((&pose, &Vec3::zeros()), &row, &[0], (&mut found, &mut []), slots);
+                let walls = (&[][..], 0);
+                body.contact_points(walls, (&pose, &Vec3::zeros()), &row, &[0], (&mut found, &mut []), slots);
                 let square: f64 = (0..3).map(|a| (found[0][a] - row[a]).powi(2)).sum();
                 assert!(square.is_finite() && square > 1e200, "{:?}, row {k}: {square}", wall.shape);
             }

@@ -50,16 +50,26 @@ impl Nearest {
         (closest_feature(self.triangle, position).0 - position).norm_squared() <= tolerance * tolerance
     }
 
+    /// Whether it is no farther than this from the centre [m].
+    pub fn is_within(&self, limit: f64) -> bool {
+        self.square <= limit * limit
+    }
+
     /// Square of the distance within which another point is the same [m²].
     fn blur(&self) -> f64 {
         (SAME_POINT * SAME_POINT) * self.square
     }
 }
 
+/// Distance from the centre of a particle beyond which a point is no contact [m].
+pub fn limit(radius: f64, reach: f64) -> f64 {
+    (NEAR * radius).max(radius + reach)
+}
+
 /// Says which of the nearest points of a particle of `radius` [m] are contacts, where these act up to a gap of `reach` [m].
 pub fn count(near: &mut [Nearest], radius: f64, reach: f64) {
-    let limit = (NEAR * radius).max(radius + reach).powi(2);
-    let mut order: Vec<usize> = (0..near.len()).filter(|&k| near[k].square <= limit).collect();
+    let limit = limit(radius, reach);
+    let mut order: Vec<usize> = (0..near.len()).filter(|&k| near[k].is_within(limit)).collect();
     if let [only] = order[..] {
         near[only].counts = true;
         return;
