@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! PLY            ASCII and binary; faces with more than three corners are cut into fans
-//! STL            ASCII and binary; vertices at equal places are made one
+//! STL            ASCII and binary, all solids of a file; vertices at equal places are made one
 //! OBJ            `v` and `f` lines; groups and objects become one mesh
 //! triangles      text, nine numbers a line: three corners [m]; a first line of words is passed over
 //! ```
@@ -122,5 +122,6 @@ pub fn load(file: &str) -> Result<TriMesh, String> {
 
 /// Lines of text, lossy, with their numbers from 1; line ends may be LF, CRLF or CR.
 fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, std::borrow::Cow<'_, str>)> {
-    (1..).zip(bytes.split(|&b| b == b'\n')).map(|(n, line)| (n, String::from_utf8_lossy(line)))
+    let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
+    (1..).zip(bytes.split(move |&b| b == end)).map(|(n, line)| (n, String::from_utf8_lossy(line)))
 }
