@@ -19,8 +19,7 @@ const TRIANGLE: usize = 50;
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
 pub(crate) fn matches(bytes: &[u8]) -> bool {
-    is_ascii(bytes)
-        || promised(bytes).is_some_and(|n| is_whole(bytes, n) || n > 0 && begins_with_a_triangle(bytes))
+    is_ascii(bytes) || promised(bytes).is_some_and(|n| is_whole(bytes, n) || begins_with_a_triangle(bytes))
 }
 
 /// Whether a head with room for text is followed by a triangle: finite corners, and a normal of length 1 or 0.

@@ -1,22 +1,27 @@
 //! Which grains an entry makes: sizes and materials with their shares.
 //!
 //! ```text
-//! next class = argmax_k  s_k T − T_k        s_k: its share, T: mass (or number) so far, T_k: that of the class
-//! n̄ = Σ s_k/m_k                             grains per mass, m_k: mean mass of a grain of the class
+//! next class = argmin_k  (T_k + m_k/2)/s_k        s_k: its share, T_k: mass (or number) of the class so far
+//! n̄ = Σ s_k/m_k                                   grains per mass, m_k: mean mass (or number, 1) of a grain of the class
 //! ```
 //!
-//! The next grain is of the class that is farthest behind its share, so that at any time each class is within one grain of it. Within a class
+//! The next grain is of the class that comes first to half a grain behind its share (Webster's rule of seats): at any time each class is about half a grain too
+//! much or too little, whatever its size, so that classes of few large grains are not begun too early. Within a class
 //! diameters are uniform, or even over ln d by what the shares are of, as between two sieves:
 //!
 //! ```text
 //! by number   d = a (b/a)^u                        ⟨d³⟩ = (b³ − a³)/(3 ln(b/a))
-//! by mass     d = (a⁻³ − u (a⁻³ − b⁻³))^(−⅓)       ⟨d³⟩ = 3 ln(b/a)/(a⁻³ − b⁻³)         u uniform in [0, 1), from a to b
+//! by mass     d = (a⁻³ − u (a⁻³ − b⁻³))^(−⅓)       ⟨d³⟩ = 3 ln(b/a)/(a⁻³ − b⁻³)         u from 0 to 1, from a to b
+//! u ← u + (√5 − 1)/2, less 1 from 1 on, from a random start: any n of them fill [0, 1) evenly
 //! ```
 
 use super::random::{diameter, unit};
 use crate::keys::{Diameter, ShareOf};
 use geom::sphere::volume;
 use rand_pcg::Pcg64Mcg;
+
+/// Step of a sequence that fills [0, 1) most evenly: the golden ratio less 1.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// How diameters lie in a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,17 +67,19 @@ impl Class {
         volume(0.5) * cubed
     }
 
-    /// A diameter [m].
-    fn diameter(&self, random: &mut Pcg64Mcg) -> f64 {
+    /// The next diameter [m], and its u on a curve, after the `last` one.
+    fn diameter(&self, last: Option<f64>, random: &mut Pcg64Mcg) -> (f64, Option<f64>) {
         let Diameter { low, high } = self.range;
-        match self.spread {
-            Spread::Uniform => diameter(self.range, random),
-            Spread::Number => (low * libm::pow(high / low, unit(random))).min(high),
-            Spread::Mass => {
-                let [a, b] = [low, high].map(|d| 1.0 / (d * d * d));
-                (1.0 / libm::cbrt(a - unit(random) * (a - b))).clamp(low, high)
-            }
+        if self.spread == Spread::Uniform {
+            return (diameter(self.range, random), None);
         }
+        let u = last.map_or_else(|| unit(random), |u| (u + GOLDEN).fract());
+        let [a, b] = [low, high].map(|d| 1.0 / (d * d * d));
+        let diameter = match self.spread {
+            Spread::Number => low * libm::pow(high / low, u),
+            _ => 1.0 / libm::cbrt(a - u * (a - b)),
+        };
+        (diameter.clamp(low, high), Some(u))
     }
 }
 
@@ -83,6 +90,8 @@ pub(super) struct Grading {
     of: ShareOf,
     /// Mass [kg] or number of each class so far.
     made: Vec<f64>,
+    /// u of the last grain of each class.
+    last: Vec<Option<f64>>,
 }
 
 /// A grain that is about to be made.
@@ -90,6 +99,8 @@ pub(super) struct Grading {
 pub(super) struct Grain {
     /// Number of its class.
     class: usize,
+    /// Its place on the curve of its class.
+    u: Option<f64>,
     /// [m].
     pub diameter: f64,
     /// [kg].
@@ -103,7 +114,7 @@ impl Grading {
     pub(super) fn new(mut classes: Vec<Class>, of: ShareOf) -> Grading {
         let sum: f64 = classes.iter().map(|c| c.share).sum();
         classes.iter_mut().for_each(|c| c.share /= sum);
-        Grading { made: vec![0.0; classes.len()], classes, of }
+        Grading { made: vec![0.0; classes.len()], last: vec![None; classes.len()], classes, of }
     }
 
     /// One material, diameters uniform in a range.
@@ -142,21 +153,25 @@ impl Grading {
 
     /// The next grain; it counts once it is [`Grading::make`]-d.
     pub(super) fn next(&self, random: &mut Pcg64Mcg) -> Grain {
-        let total: f64 = self.made.iter().sum();
-        let behind = |k: usize| self.classes[k].share * total - self.made[k];
+        let due = |k: usize| {
+            let class = &self.classes[k];
+            let grain = if self.of == ShareOf::Mass { class.mean_mass() } else { 1.0 };
+            (self.made[k] + 0.5 * grain) / class.share
+        };
         // Of equals the one with the largest share, and of these the first.
         let order = |a: &usize, b: &usize| {
             let shares = self.classes[*b].share.total_cmp(&self.classes[*a].share);
-            behind(*b).total_cmp(&behind(*a)).then(shares).then(a.cmp(b))
+            due(*a).total_cmp(&due(*b)).then(shares).then(a.cmp(b))
         };
         let class = (0..self.classes.len()).min_by(order).unwrap_or(0);
         let Class { material, density, .. } = self.classes[class];
-        let diameter = self.classes[class].diameter(random);
-        Grain { class, diameter, mass: volume(diameter / 2.0) * density, material }
+        let (diameter, u) = self.classes[class].diameter(self.last[class], random);
+        Grain { class, u, diameter, mass: volume(diameter / 2.0) * density, material }
     }
 
     /// Counts a grain.
     pub(super) fn make(&mut self, grain: &Grain) {
+        self.last[grain.class] = grain.u;
         self.made[grain.class] += match self.of {
             ShareOf::Mass => grain.mass,
             ShareOf::Number => 1.0,
@@ -202,15 +217,20 @@ mod tests {
         for (spread, of) in [(Spread::Mass, ShareOf::Mass), (Spread::Number, ShareOf::Number)] {
             let range = Diameter { low: 0.004, high: 0.016 };
             let class = Class { range, spread, share: 1.0, material: 0, density: 1000.0 };
-            let grading = Grading::new(vec![class], of);
+            let mut grading = Grading::new(vec![class], of);
             let mut random = generator(0, 1, 0);
-            let grains: Vec<Grain> = (0..100_000).map(|_| grading.next(&mut random)).collect();
+            let next = |_| {
+                let grain = grading.next(&mut random);
+                grading.make(&grain);
+                grain
+            };
+            let grains: Vec<Grain> = (0..100_000).map(next).collect();
             let weight = |g: &Grain| if of == ShareOf::Mass { g.mass } else { 1.0 };
             let all: f64 = grains.iter().map(weight).sum();
             let half: f64 = grains.iter().filter(|g| g.diameter < 0.008).map(weight).sum();
-            assert!((half / all - 0.5).abs() < 0.01, "{spread:?}: {}", half / all);
+            assert!((half / all - 0.5).abs() < 1e-4, "{spread:?}: {}", half / all);
             let mean = grains.iter().map(|g| g.mass).sum::<f64>() / 1e5;
-            assert!((mean / grading.mean().0 - 1.0).abs() < 0.01, "{spread:?}: {mean}");
+            assert!((mean / grading.mean().0 - 1.0).abs() < 1e-4, "{spread:?}: {mean}");
         }
     }
 }

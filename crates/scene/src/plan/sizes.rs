@@ -16,7 +16,7 @@ use crate::keys::{Diameter, ShareOf};
 use geom::{Shown, units};
 use toml::{Table, Value};
 
-/// Classes of a distribution: so many that even shares over ln d within a class leave P right to 10⁻³ for any that is not cut off.
+/// Classes of a distribution: so many that even shares over ln d within a class leave P right to 10⁻³.
 const CLASSES: usize = 36;
 
 /// A range of diameters [m], its share, and its material where it names one.
