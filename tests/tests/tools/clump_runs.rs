@@ -68,7 +68,7 @@ fn a_run_tells_the_axes_of_the_moments_of_inertia() {
     );
 }
 
-/// The rows of such a run are the spheres of its clumps: none of them is a clump of its own.
+/// The rows of such a run are the spheres of its clumps: none of them is a clump by itself.
 #[test]
 fn a_run_with_clumps_is_no_list_of_places_for_clumps() {
     let folder = ran();

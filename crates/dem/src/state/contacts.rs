@@ -129,7 +129,7 @@ impl ContactColumns {
         self.stiffness.iter_mut().zip(stiffness).for_each(|(own, step)| *own = step);
     }
 
-    /// Gives rows of the ledger that were made anew the stiffness at which springs were booked.
+    /// Gives rows of the ledger that are new the stiffness at which springs were booked.
     pub fn know_stiffness(&mut self) {
         let rows = self.ledger.chunks_exact_mut(LEDGER);
         rows.zip(&self.stiffness).for_each(|(row, own)| row[STIFFNESS] = *own);

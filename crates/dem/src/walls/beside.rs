@@ -49,7 +49,7 @@ pub fn count(
                 continue;
             }
             let add = |part: u32| all.push((Nearest::of(corners[part as usize], centre), None));
-            // A little farther, so that what is at the limit is there whoever looks.
+            // A little farther, so that what is at the limit is found by all of them.
             walls[wall].parts_near(centre, limit * (1.0 + 1e-9), partner >= parts, add);
         }
     }

@@ -96,7 +96,7 @@ mod tests {
         of.iter().map(|&(n, overlap)| Face { normal: n.normalize(), overlap }).collect()
     }
 
-    /// The solution leaves no overlap, and is no longer than one that does; by projections in turn (Dykstra), which know nothing of who bears.
+    /// The solution leaves no overlap, and is no longer than one that does; by projections in turn (Dykstra), which do not ask which faces bear.
     #[test]
     fn it_is_the_shortest_way_out() {
         let mut state = 7_u64;

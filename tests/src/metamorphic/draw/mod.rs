@@ -159,7 +159,7 @@ impl Draw {
         self.maybe(p, format!("{key} = {x:?}"));
     }
 
-    /// A file of its own, and its name.
+    /// A separate file, and its name.
     fn file(&mut self, stem: &str, end: &str, file: File) -> String {
         let name = format!("{stem}{}.{end}", self.files.len());
         self.files.insert(name.clone(), file);

@@ -91,7 +91,7 @@ pub fn reworded(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     }
 }
 
-/// Whether a second run goes on with everything: not with bonds, insertions, motions, springs, servos and sleep, which it begins anew.
+/// Whether a second run goes on with everything: not with bonds, insertions, motions, springs, servos and sleep, which it begins again.
 fn is_divisible(scene: &Scene) -> bool {
     let moves = |w: &Table| ["motion", "servo", "spring"].iter().any(|k| w.contains_key(*k));
     is_placed(scene)

@@ -115,7 +115,7 @@ pub fn plane_as_box(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
     any.then(|| ask(case, &scene)).flatten()
 }
 
-/// Each face of a box as a mesh of its own.
+/// Each face of a box as a separate mesh.
 pub fn box_as_mesh(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let mut scene = case.scene.clone();
     if jumps(&scene) {

@@ -38,7 +38,7 @@ pub fn names(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
         "a" => "zinc".to_owned(),
         "b" => "ash".to_owned(),
         "*" => "*".to_owned(),
-        other => format!("{other} anew"),
+        other => format!("new {other}"),
     };
     for list in ["material", "wall", "clump"] {
         for entry in scene.list_mut(list) {
