@@ -35,7 +35,11 @@ pub fn wider(scene: &Scene, reason: &str) -> Vec<String> {
     let twice = |name: &str, limit: f64| format!("guards.{name}={}", 2.0 * limit);
     let standard = dem::setup::Guards::default();
     let set = match reason.rsplit_once("guards.").map_or("", |(_, rest)| rest) {
-        rest if rest.starts_with("overlap") => twice("overlap", guards.overlap.unwrap_or(standard.overlap)),
+        rest if rest.starts_with("overlap") => match guards.overlap.unwrap_or(standard.overlap) {
+            // More than a radius is refused.
+            limit if limit >= 1.0 => return Vec::new(),
+            limit => format!("guards.overlap={}", (2.0 * limit).min(1.0)),
+        },
         rest if rest.starts_with("motion") => twice("motion", guards.motion.unwrap_or(standard.motion)),
         rest if rest.starts_with("zones") => "guards.zones=false".to_owned(),
         rest if rest.starts_with("energy") => match scene.keys.energy_limit() {
