@@ -14,6 +14,8 @@ const NORMAL: Case =
 const OBLIQUE: Case = of_walls("oblique impacts with friction and rolling on dense walls against the plane");
 const KEPT: Case =
     of_walls("elastic grains keep their energy on dense and rough walls, in corners and slots");
+const YIELDS: Case =
+    of_walls("walton_braun: a grain that passes over a dense wall gains no energy, nor does its impact");
 const REST: Case = of_walls("a grain comes to rest in a valley of wall spheres");
 const CORNER: Case = of_walls("a corner inside one wall of spheres bears a grain as two planes do");
 const CLUMP: Case =
@@ -119,6 +121,33 @@ fn oblique_impacts_as_on_the_plane() {
         let told = format!("{law:?}, μ = 0.3, rolling {}, 0° to 60°", model.unwrap_or("none"));
         OBLIQUE.within(&format!("{told}: normal"), normal, "of the speed", 0.01);
         OBLIQUE.within(&format!("{told}: tangential"), tangential, "of the speed", 0.03);
+    }
+}
+
+/// What a spring that yields remembers belongs to each sphere: a patch of them would be fed by each that comes and goes.
+#[test]
+fn a_law_that_yields_makes_no_energy() {
+    for (e, radius) in [(0.3, 2.0 * R), (0.5, R), (0.8, 2.0 * R)] {
+        let law = Law::Hooke { stiffness: 1e4, tangential_ratio: None };
+        let mut setup = with_friction(empty(law, e), 0.5);
+        let yields = |c: &ContactLaw| {
+            let mut new = ContactLaw::new(c.between, "walton_braun").with("stiffness", 1e4);
+            ["restitution", "sliding_friction"].map(|key| new.set(key, c.number(key)));
+            new
+        };
+        setup.contacts = setup.contacts.iter().map(yields).collect();
+        setup.walls = vec![still(&lattice(0.2 * R, 2e-4 * R, 12.0 * R))];
+        setup.step = Step::Auto(0.3);
+        setup.gravity = Vec3::new(0.0, 0.0, -9.81);
+        setup.ledger = true;
+        let velocity = Vec3::new(0.3, 0.0, -0.05);
+        setup.particles =
+            vec![Particle { radius, ..ball(Vec3::new(-8.0 * R, 0.0, radius + 1e-5), velocity) }];
+        let mut sim = Simulation::new(setup).expect("sound");
+        run_until(&mut sim, 0.2);
+        let kinetic = 0.5 * mass(radius, 2500.0) * velocity.norm_squared();
+        let made = sim.energy().expect("within the guards").integration.abs() / kinetic;
+        YIELDS.within(&format!("e = {e}, r = {radius} m"), made, "of the energy", 1e-3);
     }
 }
 

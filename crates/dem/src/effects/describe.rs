@@ -150,6 +150,8 @@ pub struct NormalLaw {
     pub unloaded_overlap: fn(&ContactLaw, Elastic, f64, [f64; 2]) -> f64,
     /// Whether S grows as √δ, as between elastic spheres; else it is constant.
     pub stiffens: bool,
+    /// Whether its force depends on how deep a contact has been: its energy is no function of place, so that no contacts share one. Such a law has no dashpot.
+    pub yields: bool,
 }
 
 /// Σ n nᵀ of the twelve contacts of a close packing [–].

@@ -29,6 +29,7 @@ pub const DESCRIPTION: Description = Description {
         nominal: |_| 1.0,
         unloaded_overlap,
         stiffens: true,
+        yields: false,
     }),
     ..Description::PLAIN
 };

@@ -80,6 +80,7 @@ pub const DESCRIPTION: Description = Description {
         nominal: |_| 1.0,
         unloaded_overlap,
         stiffens: false,
+        yields: false,
     }),
     ..Description::PLAIN
 };

@@ -70,6 +70,7 @@ pub const DESCRIPTION: Description = Description {
         nominal: |_| 1.0,
         unloaded_overlap,
         stiffens: false,
+        yields: false,
     }),
     ..hooke::DESCRIPTION
 };

@@ -54,7 +54,14 @@ pub const DESCRIPTION: Description = Description {
     excludes: Some((Slot::Cohesion, "law = \"jkr\" adheres by itself")),
     idle: |law| law.number("work_of_adhesion") == Some(0.0),
     instead: Some("hertz"),
-    normal: Some(NormalLaw { stiffest, reach, nominal: |_| 1.0, unloaded_overlap, stiffens: true }),
+    normal: Some(NormalLaw {
+        stiffest,
+        reach,
+        nominal: |_| 1.0,
+        unloaded_overlap,
+        stiffens: true,
+        yields: false,
+    }),
     ..Description::PLAIN
 };
 

@@ -43,6 +43,7 @@ pub const DESCRIPTION: Description = Description {
         nominal: |law| law.number("stiffness").unwrap_or(f64::NAN) / unloading(law),
         unloaded_overlap,
         stiffens: false,
+        yields: true,
     }),
     ..Description::PLAIN
 };

@@ -8,9 +8,10 @@
 //! packing has 4. A grain pressed by the whole of δ into such a wall would touch more of them, up to (r + R)/R* times as many, the outermost lightly: N is that of an
 //! overlap of δ R*/(r + R), a quarter of the limit for equal radii.
 //!
-//! Where the spheres of a wall act as one contact ([`crate::kernel::patch`]), N that are pressed alike are N^¼ times as stiff as one.
+//! Where the spheres of a wall act as one contact ([`crate::kernel::patch`]), N that are pressed alike are N^¼ times as stiff as one; under a law that yields they do not.
 
-use crate::effects::ALONG;
+use crate::effects::{ALONG, ContactLaw};
+use crate::model::limit::normal;
 use crate::setup::{Setup, Wall, WallShape};
 use crate::threads::share;
 use geom::{Grid, Vec3};
@@ -56,7 +57,10 @@ impl<'a> DenseWalls<'a> {
 /// How many times the four of a close packing push a sphere of radius `r` [m] one way on a wall, up to the overlap at which guards stop a run; no fewer than once.
 fn density_on(setup: &Setup, wall: &Wall, r: f64) -> f64 {
     let count = most_on(wall, r, setup.guards.overlap) as f64;
-    let stiffness = if setup.patches { count.sqrt().sqrt() } else { count };
+    let met = |law: &ContactLaw| law.between.0 == wall.material || law.between.1 == wall.material;
+    let yields = |law: &ContactLaw| met(law) && normal(law).is_some_and(|law| law.yields);
+    let share = setup.patches && !setup.contacts.iter().any(yields);
+    let stiffness = if share { count.sqrt().sqrt() } else { count };
     (stiffness / ALONG).max(1.0)
 }
 

@@ -121,7 +121,7 @@ fn patch(
     let normal = normal(law).filter(|_| setup.patches)?;
     let clumps = setup.clumps.shapes.iter().any(|shape| shape.material == a || shape.material == b);
     let wall = if let With::Wall(w) = with { Some(&setup.walls[w]) } else { None };
-    let shared = wall.is_some_and(|wall| matches!(wall.shape, WallShape::Spheres(_)));
+    let shared = wall.is_some_and(|wall| matches!(wall.shape, WallShape::Spheres(_))) && !normal.yields;
     let gap = (normal.reach)(law, elastic, 1.0);
     let together = shared || clumps || wall.is_some_and(|wall| wall.mount.is_some());
     together.then_some(PatchLaw { shared, hertz: normal.stiffens, gap })
