@@ -132,7 +132,9 @@ fn a_law_that_yields_makes_no_energy() {
         let mut setup = with_friction(empty(law, e), 0.5);
         let yields = |c: &ContactLaw| {
             let mut new = ContactLaw::new(c.between, "walton_braun").with("stiffness", 1e4);
-            ["restitution", "sliding_friction"].map(|key| new.set(key, c.number(key)));
+            for key in ["restitution", "sliding_friction"] {
+                new.set(key, c.number(key));
+            }
             new
         };
         setup.contacts = setup.contacts.iter().map(yields).collect();
