@@ -11,10 +11,7 @@ use std::ops::Range;
 /// What is found of the spheres near one grain; the memory is kept from one grain to the next.
 #[derive(Default)]
 struct Near {
-    /// Those that may touch, or did a step ago.
     touches: Vec<Touch>,
-    /// Number of each among the contacts of the grain.
-    number: Vec<usize>,
     /// What [`Patch::terms`] gives of each, now and a step ago.
     terms: Vec<[[f64; 2]; 2]>,
     /// Share of each, now and a step ago.
@@ -47,13 +44,13 @@ impl TileSlice<'_> {
                     put(k - from, bodies.alone(&apart.normalize()), self.patch);
                 }
             }
-            if law.shared && self.may_touch(s, from..to, (row, wall.fastest()), inputs, &mut near.number) {
-                let step = [inputs.step.dt, inputs.step.ahead];
+            if law.shared && self.several_touch(s, from..to, (row, wall.fastest()), inputs) {
                 near.touches.clear();
-                near.touches.extend(near.number.iter().map(|&k| {
+                let step = [inputs.step.dt, inputs.step.ahead];
+                near.touches.extend((from..to).map(|k| {
                     Touch::of(step, row, self.point(s, k), self.held(s, k, row, law, kind.kernel.columns()))
                 }));
-                near.find(law, remembers, &bodies, |k, numbers| put(k - from, numbers, self.patch));
+                near.find(law, remembers, &bodies, |k, numbers| put(k, numbers, self.patch));
             }
             from = to;
         }
@@ -78,29 +75,27 @@ impl TileSlice<'_> {
         if made { law.gap * libm::cbrt(row[3] * other[3] / reach) } else { 0.0 }
     }
 
-    /// Which of some contacts of a wall, no faster than `fastest` [m/s], a grain in `row` may touch in this step or has touched in the last one; whether they
-    /// are two or more.
-    fn may_touch(
+    /// Whether a grain in `row` may touch two or more of some contacts of a wall, no faster than `fastest` [m/s], in this step.
+    fn several_touch(
         &self,
         s: &Segment,
         contacts: Range<usize>,
         (row, fastest): (&Row, f64),
         inputs: &TileInputs,
-        found: &mut Vec<usize>,
     ) -> bool {
-        found.clear();
         if contacts.len() < 2 {
             return false;
         }
-        let way = inputs.step.dt.max(inputs.step.ahead) * (row.velocity().norm() + fastest);
+        let ahead = inputs.step.ahead;
+        let way = if ahead > 0.0 { ahead * (row.velocity().norm() + fastest) } else { 0.0 };
         let reach = row[3] + way + inputs.model.reach;
-        found.extend(contacts.filter(|k| {
+        let touches = |k: &usize| {
             let other = self.point(s, *k);
             // A little more, so that no rounding leaves out what [`Touch::of`] finds.
             let far = (reach + other[3]) * (1.0 + 1e-9);
             (row.position() - other.position()).norm_squared() < far * far
-        }));
-        found.len() > 1
+        };
+        contacts.filter(touches).nth(1).is_some()
     }
 }
 
@@ -113,7 +108,7 @@ impl Near {
         bodies: &Bodies,
         mut put: impl FnMut(usize, [f64; PATCH]),
     ) {
-        let Near { touches, number, terms, shares } = self;
+        let Near { touches, terms, shares } = self;
         let count = touches.len();
         let Some(mut patch) = Patch::of(law, count, |k| touches[k]) else { return };
         let instants = if remembers { &Instant::BOTH[..] } else { &Instant::BOTH[..1] };
@@ -135,7 +130,7 @@ impl Near {
         for k in 0..count {
             let numbers = patch.numbers(k, &push, bodies, |k| shares[k]);
             if numbers != ALONE {
-                put(number[k], numbers);
+                put(k, numbers);
             }
         }
     }
