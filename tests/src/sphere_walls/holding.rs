@@ -60,8 +60,8 @@ pub struct Tilting {
     pub stiffness: f64,
 }
 
-/// Tilt [rad] at which each grain leaves the pocket it has come to rest in; π/2 for one that never does. `places` [m] are where the
-/// grains come down. Also where they rested.
+/// Tilt [rad] at which each grain leaves the pocket it has come to rest in: π/2 for one that never does, the first tilt for one that
+/// fell through. `places` [m] are where the grains come down. Also where they rested.
 ///
 /// # Panics
 /// When a guard trips.
@@ -73,12 +73,14 @@ pub fn leaving_tilts(
 ) -> Vec<(Vec3, f64)> {
     // Down in its pocket by itself: what rubs could hold it up on the way.
     let mut setup = laid(spheres, kind.radius, stiffness, places);
-    let settled = come_to_rest(&mut setup);
+    let floor = spheres.iter().map(|(c, r)| c.z - r).fold(f64::INFINITY, f64::min) - kind.radius;
+    let Settled { grains: settled, held } = come_to_rest(setup.clone(), floor);
     for contact in &mut setup.contacts {
         contact.set("sliding_friction", kind.friction);
         contact.set("rolling_resistance", kind.blocked.then_some(BLOCKED));
     }
-    let mut left = vec![std::f64::consts::FRAC_PI_2; settled.len()];
+    let mut left = vec![std::f64::consts::FRAC_PI_2; held];
+    left.resize(settled.len(), from);
     let mut now = settled.clone();
     let far = 0.5 * kind.radius.min(spheres[0].1);
     let mut tilt = from;
@@ -116,16 +118,27 @@ fn laid(spheres: &[(Vec3, f64)], radius: f64, stiffness: f64, places: &[(f64, f6
     setup
 }
 
-/// The grains once none moves, as far as that comes soon; they start from there next.
-fn come_to_rest(setup: &mut Setup) -> Vec<Particle> {
+/// The grains once none moves, as far as that comes soon, and at the end those that fell through the wall below `floor` [m].
+fn come_to_rest(mut setup: Setup, floor: f64) -> Settled {
+    let mut fallen = Vec::new();
     for _ in 0..MOST_WAITS {
-        setup.particles = rested(setup, 60.0);
+        setup.particles = rested(&setup, 60.0);
+        // One that fell on would soon be faster than the step allows.
+        fallen.extend(setup.particles.extract_if(.., |p| p.position.z < floor));
         let slow = |p: &Particle| p.velocity.norm() < AT_REST * (9.81 * p.radius).sqrt();
         if setup.particles.iter().all(slow) {
             break;
         }
     }
-    setup.particles.clone()
+    let held = setup.particles.len();
+    Settled { grains: [setup.particles, fallen].concat(), held }
+}
+
+/// Grains on a wall.
+struct Settled {
+    /// First those that it holds.
+    grains: Vec<Particle>,
+    held: usize,
 }
 
 /// The grains after a time [√(r/g)].

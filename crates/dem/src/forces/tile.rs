@@ -162,7 +162,8 @@ impl TileSlice<'_> {
         let history = &mut self.history[history..history + s.slots.len() * layout.history(columns)];
         let active = (s.slots.start - self.from.slot) / BLOCK;
         let active = &mut self.active[active..active + s.slots.len() / BLOCK];
-        let mut slots = HistorySlots { history, active, layout, first: 0, columns };
+        let ledger = rows_mut(self.ledger, (s.slots.start - self.from.slot) * LEDGER, s.slots.len() * LEDGER);
+        let mut slots = HistorySlots { history, active, layout, first: 0, columns, ledger };
         let pose = inputs.model.walls[wall].pose(&inputs.poses[wall]);
         let mut from = 0;
         while from < s.len {

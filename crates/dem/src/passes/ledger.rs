@@ -35,7 +35,7 @@ pub fn add_moves(model: &Model, state: &mut State) {
         work += DrivenBody { velocity, spin, ..driven(model, state, k, a, angular_acceleration) }.power();
     }
     work += state.clumps.last_driven(&model.setup, model.dt).map(|d| d.power()).sum::<f64>();
-    state.ledger.work += work * model.dt;
+    state.ledger.work += work * model.dt + state.clumps.made_by_turning(model.dt);
 }
 
 /// Opens the ledger, and later books particles `starting` that become free: their drive has booked the first half of their first step. Forces are those
@@ -151,7 +151,8 @@ pub fn driven(model: &Model, state: &State, k: usize, a: Vec3, angular_accelerat
     let moment = angular_acceleration / inverse_inertia;
     let (velocity, spin) = (Vec3::zeros(), Vec3::zeros());
     let forces = [(a - weight) * mass, a * mass];
-    DrivenBody { inverse_mass: row[7], inverse_inertia, forces, moment, velocity, spin }
+    let turning = angular_acceleration;
+    DrivenBody { inverse_mass: row[7], forces, moment, turning, velocity, spin }
 }
 
 impl LedgerSums {

@@ -98,9 +98,9 @@ fn body(
     let zero = Vec3::zeros();
     DrivenBody {
         inverse_mass: 1.0 / mount.mass,
-        inverse_inertia: 0.0,
         forces: [force; 2],
         moment: zero,
+        turning: zero,
         velocity,
         spin: zero,
     }

@@ -63,10 +63,9 @@ pub fn quaternion(q: &[f64; 4]) -> UnitQuaternion<f64> {
 impl ClumpMotion {
     /// Driven by a force of contacts and fluid, at rest and without a moment.
     pub fn driven(&self, force: Vec3, setup: &Setup) -> DrivenBody {
-        let [moment, velocity, spin] = [Vec3::zeros(); 3];
+        let [moment, turning, velocity, spin] = [Vec3::zeros(); 4];
         let forces = [force, force + self.weight(setup) * self.mass];
-        let (inverse_mass, inverse_inertia) = (1.0 / self.mass, 0.0);
-        DrivenBody { inverse_mass, inverse_inertia, forces, moment, velocity, spin }
+        DrivenBody { inverse_mass: 1.0 / self.mass, forces, moment, turning, velocity, spin }
     }
 
     /// Of what it is made of [kg/m³].

@@ -60,12 +60,11 @@ pub struct LedgerSums {
 pub struct DrivenBody {
     /// 1/m [1/kg].
     pub inverse_mass: f64,
-    /// 1/I [1/(kg·m²)]; of a clump 0, whose turn has no such energy.
-    pub inverse_inertia: f64,
     /// Force but for its weight, and all of it [N].
     pub forces: [Vec3; 2],
-    /// Moment [N·m].
+    /// Moment [N·m], and what I⁻¹ makes of it [rad/s²].
     pub moment: Vec3,
+    pub turning: Vec3,
     /// Velocity [m/s] and angular velocity [rad/s].
     pub velocity: Vec3,
     pub spin: Vec3,
@@ -80,8 +79,7 @@ impl DrivenBody {
     /// m a² − 2 F·a, and the same of its rotation [J/s²]: an eighth of it times Δt² takes ½ F·v to ½ F·v₋, and ½ m v² to ½ m v₋·v₊.
     pub(crate) fn step_share(&self) -> f64 {
         let [contacts, all] = self.forces;
-        (all - 2.0 * contacts).dot(&all) * self.inverse_mass
-            - self.moment.norm_squared() * self.inverse_inertia
+        (all - 2.0 * contacts).dot(&all) * self.inverse_mass - self.moment.dot(&self.turning)
     }
 }
 

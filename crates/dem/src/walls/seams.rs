@@ -9,6 +9,7 @@
 //! a neighbour without history counts, the neighbour takes over (the nearest one, within a quarter of r: contact points
 //! move less in a step). The spring is turned into the new tangent plane by the effect itself.
 
+use crate::kernel::{LEDGER, STIFFNESS};
 use crate::simd::{BLOCK, Layout};
 use crate::walls::translation::{Face, groups, shortest};
 use geom::Vec3;
@@ -126,44 +127,76 @@ pub struct HistorySlots<'a> {
     pub first: usize,
     /// Numbers of each contact.
     pub columns: usize,
+    /// Rows of the energy ledger of the whole segment; empty without it.
+    pub ledger: &'a mut [f64],
 }
 
 impl HistorySlots<'_> {
     /// The same from slot `by` on.
     pub fn from(&mut self, by: usize) -> HistorySlots<'_> {
-        let HistorySlots { history, active, layout, first, columns } = self;
-        HistorySlots { history, active, layout: *layout, first: *first + by, columns: *columns }
+        let HistorySlots { history, active, layout, first, columns, ledger } = self;
+        HistorySlots { history, active, layout: *layout, first: *first + by, columns: *columns, ledger }
     }
 
     fn at(&self, k: usize, column: usize) -> usize {
         self.layout.history_at(0, self.first + k, column, self.columns)
     }
 
-    fn empty(&self, k: usize) -> bool {
-        (0..self.columns).all(|c| self.layout.get(self.history, self.at(k, c)) == 0.0)
+    fn stiffness(&self, k: usize) -> usize {
+        (self.first + k) * LEDGER + STIFFNESS
     }
 
-    /// Moves the history of points that no longer count to neighbours without history.
-    pub fn take_over(&mut self, near: &[Nearest], radius: f64) {
-        if self.columns == 0 {
-            return;
+    fn remembers(&self, k: usize) -> bool {
+        (0..self.columns).any(|c| self.layout.get(self.history, self.at(k, c)) != 0.0)
+    }
+
+    fn is_booked(&self, k: usize) -> bool {
+        self.ledger[self.stiffness(k)] != 0.0
+    }
+
+    fn move_history(&mut self, from: usize, to: usize) {
+        for c in 0..self.columns {
+            let (a, b) = (self.at(from, c), self.at(to, c));
+            let x = self.layout.get(self.history, a);
+            self.layout.put(self.history, b, x);
+            self.layout.put(self.history, a, 0.0);
         }
+        // Or a block in which nothing touches is passed over, by as many contacts as are computed at once.
+        self.active[(self.first + to) / BLOCK] = true;
+    }
+
+    fn move_stiffness(&mut self, from: usize, to: usize) {
+        let (a, b) = (self.stiffness(from), self.stiffness(to));
+        self.ledger[b] = std::mem::take(&mut self.ledger[a]);
+    }
+
+    /// Moves the history of points that no longer count to neighbours without history, and the stiffness at which the ledger booked
+    /// them to neighbours without one. Each by itself: what moves is the same with the ledger and without.
+    pub fn take_over(&mut self, near: &[Nearest], radius: f64) {
+        if self.columns > 0 {
+            self.hand_over(near, radius, HistorySlots::remembers, HistorySlots::move_history);
+        }
+        if !self.ledger.is_empty() {
+            self.hand_over(near, radius, HistorySlots::is_booked, HistorySlots::move_stiffness);
+        }
+    }
+
+    fn hand_over(
+        &mut self,
+        near: &[Nearest],
+        radius: f64,
+        holds: impl Fn(&Self, usize) -> bool,
+        give: impl Fn(&mut Self, usize, usize),
+    ) {
         for k in (0..near.len()).filter(|&k| !near[k].counts) {
-            if self.empty(k) {
+            if !holds(self, k) {
                 continue;
             }
             let away = |m: usize| (near[m].way - near[k].way).norm_squared();
-            let free = (0..near.len()).filter(|&m| near[m].counts && self.empty(m));
+            let free = (0..near.len()).filter(|&m| near[m].counts && !holds(self, m));
             let nearest = free.min_by(|&a, &b| away(a).total_cmp(&away(b)).then(a.cmp(&b)));
             if let Some(m) = nearest.filter(|&m| away(m) <= (STRIDE * radius).powi(2)) {
-                for c in 0..self.columns {
-                    let (from, to) = (self.at(k, c), self.at(m, c));
-                    let x = self.layout.get(self.history, from);
-                    self.layout.put(self.history, to, x);
-                    self.layout.put(self.history, from, 0.0);
-                }
-                // Or a block in which nothing touches is passed over, by as many contacts as are computed at once.
-                self.active[(self.first + m) / BLOCK] = true;
+                give(self, k, m);
             }
         }
     }
@@ -184,10 +217,20 @@ mod tests {
         // The grain's triangles are the last of one block and the first of the next.
         let mut near = [Nearest::of(triangle, Vec3::new(0.2, 0.2, 1.0)); 2];
         near[1].counts = true;
-        let mut slots =
-            HistorySlots { history: &mut history, active: &mut active, layout, first: 0, columns: 1 };
+        let mut ledger = vec![0.0; 2 * BLOCK * LEDGER];
+        ledger[7 * LEDGER + STIFFNESS] = 5.0;
+        let (history_of, active_of, ledger_of) = (&mut history[..], &mut active[..], &mut ledger[..]);
+        let mut slots = HistorySlots {
+            history: history_of,
+            active: active_of,
+            layout,
+            first: 0,
+            columns: 1,
+            ledger: ledger_of,
+        };
         slots.from(7).take_over(&near, 1.0);
         assert_eq!((layout.get(&history, at(7)), layout.get(&history, at(8))), (0.0, 3.0));
         assert_eq!(active, [true, true]);
+        assert_eq!((ledger[7 * LEDGER + STIFFNESS], ledger[8 * LEDGER + STIFFNESS]), (0.0, 5.0));
     }
 }

@@ -29,7 +29,8 @@ fn no_wall_is_met_far_away() {
             let mut found = [Row::default()];
             let history = &mut [];
             let active = &mut [];
-            let slots = HistorySlots { history, active, layout: Layout::default(), first: 0, columns: 0 };
+            let (layout, ledger) = (Layout::default(), &mut [][..]);
+            let slots = HistorySlots { history, active, layout, first: 0, columns: 0, ledger };
             let pose = body.pose(&wall.motion.pose(0.0));
             let walls = (&[][..], 0);
             body.contact_points(walls, (&pose, &Vec3::zeros()), &row, &[0], (&mut found, &mut []), slots);

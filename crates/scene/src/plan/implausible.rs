@@ -119,18 +119,19 @@ impl PlanBuilder<'_> {
         let Some(diameter) = self.sizes().map(|sizes| 2.0 * sizes.largest) else { return };
         let name = &self.scene.text.name;
         for wall in &self.walls {
-            let (points, cure): (Vec<Vec3>, _) = match &wall.shape {
+            let (points, largest, cure): (Vec<Vec3>, f64, _) = match &wall.shape {
                 WallShape::Mesh(mesh) => {
-                    (mesh.vertices.clone(), "give the unit of the drawing, such as units = \"mm\"")
+                    (mesh.vertices.clone(), 0.0, "give the unit of the drawing, such as units = \"mm\"")
                 }
                 WallShape::Spheres(spheres) => (
                     spheres.iter().map(|s| s.0).collect(),
+                    spheres.iter().map(|s| s.1).fold(0.0, f64::max),
                     "give the tools that made it --scale 0.001 if the scan was in mm",
                 ),
                 WallShape::Plane(_) => continue,
             };
             let (low, high) = grid::bounds(&points);
-            let (width, wall) = ((high - low).norm(), &wall.name);
+            let (width, wall) = ((high - low).norm() + 2.0 * largest, &wall.name);
             let what = match width / diameter {
                 share if share > WIDTHS[1] => "more than 20 000 times the largest grain",
                 share if share < WIDTHS[0] => "less than the largest grain",

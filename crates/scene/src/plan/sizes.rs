@@ -199,7 +199,7 @@ impl GrainKeys<'_> {
     /// `{ law = "log-normal", median = …, deviation = …, from = …, to = … }`, or `{ law = "rosin-rammler", size = …, spread = …, from = …, to = … }`
     fn law(&self, plan: &PlanBuilder, table: &Table) -> Result<Vec<Part>> {
         let needed = |key: &str| {
-            table.get(key).ok_or_else(|| self.wrong(plan, &table.to_string(), &format!("'{key}' is missing")))
+            table.get(key).ok_or_else(|| self.wrong(plan, &inline(table), &format!("'{key}' is missing")))
         };
         let length = |key: &str| self.length(plan, needed(key)?);
         let number = |key: &str| self.positive(plan, key, needed(key)?);
@@ -223,7 +223,7 @@ impl GrainKeys<'_> {
         };
         let range = Diameter { low: length("from")?, high: length("to")? };
         if range.low >= range.high {
-            return Err(self.wrong(plan, &table.to_string(), "ends ('to') before it begins ('from')"));
+            return Err(self.wrong(plan, &inline(table), "ends ('to') before it begins ('from')"));
         }
         let share = |range: &Diameter| smaller(range.high) - smaller(range.low);
         // Where hardly anything is there is no class: a narrow law is not spread by a wide range.
@@ -235,15 +235,20 @@ impl GrainKeys<'_> {
         });
         let parts: Vec<Part> = parts.filter(|part| part.share > 0.0).collect();
         let kept: f64 = parts.iter().map(|p| p.share).fold(0.0, |sum, share| sum + share);
-        match kept < 0.5 {
-            true => Err(self.wrong(
-                plan,
-                &table.to_string(),
-                &format!("'from' and 'to' leave {:.1} % of the distribution", 100.0 * kept),
-            )),
-            false => Ok(parts),
+        if kept < 0.5 {
+            let why =
+                format!("'from' and 'to' leave {:.3} % of the distribution, less than half", 100.0 * kept);
+            let cure =
+                "give a range that holds most of it, or the share of each size as [[diameter, share], …]";
+            return Err(plan.check.wrong(&self.key("sizes"), inline(table), &why, cure));
         }
+        Ok(parts)
     }
+}
+
+/// A table on one line, as it is in a scene.
+fn inline(table: &Table) -> String {
+    Value::from(table.clone()).to_string()
 }
 
 /// The part of a range outside of which the share `smaller` of a distribution changes by less than [`REST`].

@@ -48,7 +48,19 @@ impl PlanBuilder<'_> {
             let name = if n == 0 { "given".to_owned() } else { format!("given.{n}") };
             self.wall_spheres("wall", &name, &Wall::default(), file)?;
         }
+        self.doubled()?;
         self.servo_areas()
+    }
+
+    /// Two walls that are one surface: each would push by itself, twice as hard as the material is.
+    fn doubled(&self) -> Result<()> {
+        for (k, wall) in self.walls.iter().enumerate() {
+            let Some(other) = self.walls[..k].iter().find(|other| is_same(wall, other)) else { continue };
+            let why =
+                format!("is the same surface as wall '{}': a grain would touch both at once", other.name);
+            return Err(SceneError::file(&format!("wall '{}'", wall.name), why, "take one of them out"));
+        }
+        Ok(())
     }
 
     fn wall_file(&self, source: &str) -> Result<WallFile> {
@@ -194,6 +206,26 @@ impl PlanBuilder<'_> {
         Ok(entry.sides().into_iter().map(face).collect())
     }
 }
+
+/// Whether two walls have one shape, up to rounding, and stay on each other.
+fn is_same(a: &setup::Wall, b: &setup::Wall) -> bool {
+    let answers = |w: &setup::Wall| w.servo.is_some() || w.mount.is_some();
+    if a.motion != b.motion || answers(a) || answers(b) {
+        return false;
+    }
+    match (&a.shape, &b.shape) {
+        (WallShape::Plane(a), WallShape::Plane(b)) => {
+            let size = a.point.amax().max(b.point.amax());
+            (a.normal - b.normal).norm() <= ALIKE && a.signed_distance(&b.point).abs() <= ALIKE * size
+        }
+        (WallShape::Mesh(a), WallShape::Mesh(b)) => a.faces == b.faces && a.vertices == b.vertices,
+        (WallShape::Spheres(a), WallShape::Spheres(b)) => a == b,
+        _ => false,
+    }
+}
+
+/// Planes that differ by less are one [–].
+const ALIKE: f64 = 1e-12;
 
 /// A plane of a key.
 pub(super) fn plane(check: &Check, key: &str, text: &str) -> Result<Plane> {

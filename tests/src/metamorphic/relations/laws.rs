@@ -114,6 +114,9 @@ fn energies(answer: &Answer) -> Vec<f64> {
     answer.frames.values().filter_map(of).collect()
 }
 
+/// Energy of grains that touch up to the rounding of their places, without motion [J].
+const NOTHING: f64 = 1e-24;
+
 /// The largest change of the sum of a run, over its largest kinetic and elastic energy.
 pub fn made(answer: &Answer) -> Option<f64> {
     let all = energies(answer);
@@ -123,7 +126,7 @@ pub fn made(answer: &Answer) -> Option<f64> {
         let term = |name: &str| rows.names.iter().position(|n| n == name).map_or(0.0, |k| rows.rows[k][0]);
         Some(term("translation") + term("elastic") + term("rotation"))
     });
-    let scale = scale.fold(f64::MIN_POSITIVE, f64::max);
+    let scale = scale.fold(NOTHING, f64::max);
     Some(all.iter().map(|e| (e - first).abs()).fold(0.0, f64::max) / scale)
 }
 

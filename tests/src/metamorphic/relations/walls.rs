@@ -115,12 +115,13 @@ pub fn plane_as_box(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
     any.then(|| ask(case, &scene)).flatten()
 }
 
-/// Each face of a box as a separate mesh.
+/// Each face of a box, an endless plane, as a large mesh.
 pub fn box_as_mesh(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
     let mut scene = case.scene.clone();
     if jumps(&scene) {
         return None;
     }
+    let ends = ends(&scene);
     let (mut walls, mut files, mut any) = (Vec::new(), Vec::new(), false);
     for wall in case.scene.list("wall") {
         let corners = wall.get("box").and_then(numbers).filter(|_| is_plain(wall));
@@ -132,13 +133,10 @@ pub fn box_as_mesh(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
         any = true;
         for face in faces.iter().filter_map(Value::as_str) {
             let axis = ["x", "y", "z"].iter().position(|a| face.starts_with(a))?;
-            let of = |k: usize| [corners[k % 3], corners[k % 3 + 3]];
-            let at = of(axis)[usize::from(face.ends_with('+'))];
+            let at = corners[axis + if face.ends_with('+') { 3 } else { 0 }];
+            let (u, v) = (ends[(axis + 1) % 3], ends[(axis + 2) % 3]);
             let name = format!("face{}.ply", files.len());
-            files.push((
-                name.clone(),
-                rectangle(axis, at, of(axis + 1), of(axis + 2), random.random_range(1..4)),
-            ));
+            files.push((name.clone(), rectangle(axis, at, u, v, random.random_range(1..4))));
             let mut one = wall.clone();
             one.remove("box");
             one.remove("faces");

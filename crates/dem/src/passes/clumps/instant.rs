@@ -143,7 +143,8 @@ impl RigidClumps {
             let now = self.instant(f, model, state, sums);
             let Instant { velocity, spin, torque: moment, .. } = now;
             let driven = f.driven(now.force + f.drag(&model.setup), &model.setup);
-            (self.members[f.first as usize], DrivenBody { moment, velocity, spin, ..driven })
+            let turning = rotation::spin(&quaternion(&f.turn), &moment, &f.inverse_inertia);
+            (self.members[f.first as usize], DrivenBody { moment, turning, velocity, spin, ..driven })
         })
     }
 
@@ -156,6 +157,19 @@ impl RigidClumps {
             let velocity = f.velocity - f.acceleration * dt;
             DrivenBody { moment: f.torque, velocity, spin, ..f.driven(force, setup) }
         })
+    }
+
+    /// What the last move's turn of those that are free made of their energy, at a constant angular momentum [J]: 0 up to rounding where
+    /// the turn is exact ([`rotation::turned`]), else of the order of the step.
+    pub fn made_by_turning(&self, dt: f64) -> f64 {
+        let made = |f: &ClumpMotion| {
+            let momentum = f.momentum - f.torque * (0.5 * dt);
+            let energy = |turn: &[f64; 4]| {
+                0.5 * rotation::spin(&quaternion(turn), &momentum, &f.inverse_inertia).dot(&momentum)
+            };
+            energy(&f.turn) - energy(&f.turn_before)
+        };
+        self.flights.iter().filter(|f| !f.is_prescribed).map(made).sum()
     }
 
     /// What local damping takes from those that are free, at this instant [W].
