@@ -19,9 +19,10 @@ pub struct IntegrationError {
 }
 
 impl IntegrationError {
-    /// That of a ledger; `None` where no energy was exchanged and nothing moved. `peak` is the most that moved or was in springs [J].
-    pub fn of(energy: &Energy, peak: f64) -> Option<IntegrationError> {
-        let (share, of_exchanged) = energy.error(peak)?;
+    /// That of a ledger; `None` where no energy was exchanged and nothing moved: no more than `rest`. `peak` is the most that moved or was in
+    /// springs [J].
+    pub fn of(energy: &Energy, peak: f64, rest: f64) -> Option<IntegrationError> {
+        let (share, of_exchanged) = energy.error(peak, rest)?;
         Some(IntegrationError { energy: energy.integration, share, of_exchanged })
     }
 
@@ -50,7 +51,7 @@ mod tests {
     fn an_error_above_a_hundredth_is_a_warning() {
         let of = |integration| {
             let energy = Energy { normal: 2.0, translation: 1.0, integration, ..Energy::default() };
-            IntegrationError::of(&energy, 0.5).expect("something was exchanged")
+            IntegrationError::of(&energy, 0.5, 0.0).expect("something was exchanged")
         };
         let small = of(0.019);
         assert_eq!(small.to_string(), "integration error 0.95 % of the energy exchanged (0.019 J)");
@@ -61,10 +62,12 @@ mod tests {
             "{large}"
         );
         assert!(of(0.021).warning().expect("a warning").contains("guards.energy"));
-        assert_eq!(IntegrationError::of(&Energy::default(), 0.0), None);
+        assert_eq!(IntegrationError::of(&Energy::default(), 0.0, 0.0), None);
+        let touching = Energy { elastic: 4e-31, integration: 5e-30, ..Energy::default() };
+        assert_eq!(IntegrationError::of(&touching, 5e-30, 1e-20), None, "rounding of places");
         // All that moved has left the scene.
-        let left =
-            IntegrationError::of(&Energy { integration: 0.01, ..Energy::default() }, 2.0).expect("it moved");
+        let left = IntegrationError::of(&Energy { integration: 0.01, ..Energy::default() }, 2.0, 0.0)
+            .expect("it moved");
         assert!(left.share == 0.005 && !left.of_exchanged, "{left:?}");
     }
 }

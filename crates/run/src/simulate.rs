@@ -297,7 +297,7 @@ impl<W: Write> Run<W> {
     /// What the time step made, by the ledger.
     fn integration(&mut self) -> Option<IntegrationError> {
         let energy = self.written.ledger.then(|| self.sim.energy().ok())??;
-        IntegrationError::of(&energy, self.peak)
+        IntegrationError::of(&energy, self.peak, self.sim.energy_of_rest())
     }
 
     pub(crate) fn now(&self) -> u64 {

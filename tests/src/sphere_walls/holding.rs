@@ -21,8 +21,8 @@ use dem::setup::*;
 use geom::Vec3;
 use grainpipe_tests::setups::{Law, empty, grain};
 
-/// Time at each tilt, in √(r/g).
-const WAIT: f64 = 6.0;
+/// Time at each tilt, in √(r/g): a grain that is 1° too steep goes 1.2 r in it.
+const WAIT: f64 = 12.0;
 /// Speed of a grain at rest [√(r g)].
 const AT_REST: f64 = 1e-5;
 /// How often 60 √(r/g) are waited for all to be at rest.

@@ -1,5 +1,6 @@
 //! Storage, exclusion, generation and calculation planes, at the engine.
 
+mod account;
 mod ballistic;
 mod bonds;
 mod clumps;

@@ -6,7 +6,6 @@ use crate::neighbours::NeighbourLists;
 use crate::passes::instant::{Instant, instant};
 use crate::passes::ledger::close_step;
 use crate::passes::mount;
-use crate::passes::zones::ledger::energy_of_idle;
 use crate::setup::{Particle, Setup};
 use crate::space::cell::Cell;
 use crate::state::ledger::{carried, heavy};
@@ -118,9 +117,6 @@ pub fn energy(model: &Model, state: &State, lists: &NeighbourLists) -> Energy {
     }
     [energy.mount_kinetic, energy.mount_elastic] = mount::energy(model, state, lists);
     if setup.ledger {
-        let held = energy_of_idle(state, lists);
-        energy.elastic -= held;
-        energy.left += held;
         close_step(model, state, lists, &mut energy);
     }
     energy

@@ -8,13 +8,13 @@ use crate::passes::bonds::freed_energy;
 use crate::passes::drag::drag_power;
 use crate::passes::instant::driven_now;
 use crate::passes::touching::position_before;
-use crate::passes::zones::ledger::add_zones;
+use crate::passes::zones::ledger::ZoneWork;
 use crate::passes::zones::muted::{bring, mute};
 use crate::passes::{cell, local_damping, mount};
 use crate::setup::Particle;
 use crate::space::sphere::inverse_inertia;
 use crate::state::ledger::{carried, heavy, unwrapped_potential};
-use crate::state::{ContactColumns, DrivenBody, Energy, LedgerSums, State, Zones};
+use crate::state::{ContactColumns, DrivenBody, Energy, LedgerSums, State};
 use geom::Vec3;
 
 /// After a move: what contacts and fluid did to each particle in it.
@@ -72,22 +72,22 @@ fn half(model: &Model, power: f64, share: f64) -> (f64, f64) {
     (0.5 * power * model.dt, 0.125 * share * model.dt * model.dt)
 }
 
-/// Closes the account of a free particle that passes a storage plane within its last step, with an energy `taken` [J].
-pub fn close_crossing(model: &Model, state: &mut State, k: usize, taken: f64) {
+/// Energy [J] that free particle `k` carried in the middle of the last move.
+pub fn carried_in_the_middle(model: &Model, state: &State, k: usize) -> f64 {
     let (p, dt) = (&state.particles, model.dt);
     let (row, a) = (&p.rows[k], p.acceleration[k].vector());
     let (spin, angular_acceleration) = p.rotation(k);
     let (velocity, spin) = (row.velocity() - a * (0.5 * dt), spin - angular_acceleration * (0.5 * dt));
-    let middle = (p.position(k) + position_before(model, state, k)) * 0.5;
+    let position = (p.position(k) + position_before(model, state, k)) * 0.5;
     let (id, material, radius) = (p.id[k], p.material[k], row[3]);
-    let there = Particle { id, material, radius, position: middle, velocity, spin };
-    state.ledger.passed += taken - carried(&there, &model.setup).iter().sum::<f64>();
+    let there = Particle { id, material, radius, position, velocity, spin };
+    carried(&there, &model.setup).iter().sum()
 }
 
 /// Brings the ledger to this instant, whose forces are known: losses of a single instant count whole, all other terms of the step half.
 pub fn close_step(model: &Model, state: &State, lists: &NeighbourLists, energy: &mut Energy) {
     let mut now = LedgerSums::default();
-    now.add(&lists.slots, &state.contacts, &state.zones);
+    now.add(&lists.slots, &state.contacts);
     now.add_bonds(&state.bonds, model.dt, freed_energy(state, lists));
     let sums = state.contacts.sums();
     let free = (0..state.particles.len()).filter(|&k| is_driven(state, k));
@@ -103,11 +103,15 @@ pub fn close_step(model: &Model, state: &State, lists: &NeighbourLists, energy: 
     let [brought, dashpots] = mount::step_sums(model, state, lists);
     (now.walls, now.mounts) = (now.walls - brought + cell::step_work(model, state, lists), dashpots);
     let (work, share) = half(model, power, share);
+    let ZoneWork { entering, leaving } = ZoneWork::of(model, state, lists);
+    energy.entered -= 0.5 * entering;
+    energy.left += 0.5 * leaving;
     energy.normal += now.lost;
     energy.bonds += now.broken;
     energy.half_step = 0.5 * now.gone();
     let (ledger, lost) = (&state.ledger, |a: &LedgerSums| a.lost + a.broken);
-    let done = ledger.work + work + share + ledger.passed + lost(ledger) + lost(&now);
+    let passed = ledger.passed + 0.5 * (entering + leaving);
+    let done = ledger.work + work + share + passed + lost(ledger) + lost(&now);
     energy.integration = done
         + ledger.gone()
         + energy.half_step
@@ -127,12 +131,15 @@ pub fn add_contacts(model: &Model, state: &mut State, lists: &NeighbourLists) {
     }
     mute(model, state, lists);
     let freed = freed_energy(state, lists);
-    let State { ledger, contacts, zones, bonds, .. } = state;
-    ledger.add(&lists.slots, contacts, zones);
+    let State { ledger, contacts, bonds, .. } = state;
+    ledger.add(&lists.slots, contacts);
     ledger.add_bonds(bonds, model.dt, freed);
     state.contacts.add_work();
     state.ledger.walls += cell::step_work(model, state, lists);
-    add_zones(model, state, lists);
+    let ZoneWork { entering, leaving } = ZoneWork::of(model, state, lists);
+    state.ledger.passed += entering + leaving;
+    state.ledger.entered -= entering;
+    state.ledger.left += leaving;
 }
 
 /// Whether forces drive a particle: it is free, awake, and no member of a rigid clump.
@@ -156,24 +163,17 @@ pub fn driven(model: &Model, state: &State, k: usize, a: Vec3, angular_accelerat
 }
 
 impl LedgerSums {
-    /// Adds one step's ledger, in its order. What a contact that acts on no particle took or brought is part of the work on zone particles, and is booked with it.
-    pub fn add(&mut self, slots: &Slots, contacts: &ContactColumns, zones: &Zones) {
+    /// Adds one step's ledger, in its order.
+    pub fn add(&mut self, slots: &Slots, contacts: &ContactColumns) {
         for segment in &slots.segments {
             let range = segment.contacts();
-            let rows = &contacts.ledger[range.start * LEDGER..range.end * LEDGER];
             let wall = segment.with.is_wall();
-            for (slot, row) in range.zip(rows.chunks_exact(LEDGER)) {
-                let (dissipated, surface) =
-                    (&row[1..=DISSIPATORS], if wall { row[1 + DISSIPATORS] } else { 0.0 });
-                if zones.is_idle(slots.ends(segment, slot)) {
-                    let gone = dissipated.iter().sum::<f64>() - surface;
-                    self.left += gone;
-                    self.passed += gone;
-                } else {
-                    for (sum, part) in self.dissipated.iter_mut().zip(dissipated) {
-                        *sum += part;
-                    }
-                    self.walls += surface;
+            for row in contacts.ledger[range.start * LEDGER..range.end * LEDGER].chunks_exact(LEDGER) {
+                for (sum, part) in self.dissipated.iter_mut().zip(&row[1..=DISSIPATORS]) {
+                    *sum += part;
+                }
+                if wall {
+                    self.walls += row[1 + DISSIPATORS];
                 }
                 self.lost += row[LOST];
             }

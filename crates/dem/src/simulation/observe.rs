@@ -187,4 +187,9 @@ impl Simulation {
         self.ready()?;
         Ok(snapshot::energy(&self.model, &self.state, &self.lists))
     }
+
+    /// Energy below which nothing moves [J]: what grains hold that touch up to the rounding of their places is less.
+    pub fn energy_of_rest(&self) -> f64 {
+        guards::rest(&self.model, &self.state)
+    }
 }

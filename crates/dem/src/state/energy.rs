@@ -74,11 +74,11 @@ impl Energy {
     }
 
     /// [`Energy::integration`] over what was exchanged, or over the most that moved or was in springs so far (`peak` [J], or now) where that
-    /// is more [–]; `None` without either. And whether the first was taken.
-    pub fn error(&self, peak: f64) -> Option<(f64, bool)> {
+    /// is more [–]; `None` where both are no more than `rest` [J]. And whether the first was taken.
+    pub fn error(&self, peak: f64, rest: f64) -> Option<(f64, bool)> {
         let (exchanged, held) = (self.exchanged(), peak.max(self.held()));
         let of = exchanged.max(held);
-        (of > 0.0 && self.integration.is_finite()).then(|| (self.integration / of, exchanged >= held))
+        (of > rest && self.integration.is_finite()).then(|| (self.integration / of, exchanged >= held))
     }
 
     /// What moves and is in springs.

@@ -39,14 +39,6 @@ impl RigidClumps {
         Some((particle, EntryClump { shape: f.shape, scale: f.scale, orientation }))
     }
 
-    /// Energy [J] of the clump of row `k`, were it in this state; all of it for the first member, none for the others.
-    pub fn energy_of(&self, k: usize, whole: &Particle, clump: &EntryClump, setup: &Setup) -> f64 {
-        let Some(f) = self.body_of(k).filter(|f| self.is_first(f, k)) else { return 0.0 };
-        let turn = clump.orientation * setup.clumps.shapes[f.shape as usize].frame;
-        let momentum = rotation::momentum(&turn, &whole.spin, &f.inverse_inertia);
-        energy(f.mass, &whole.position, &whole.velocity, [&whole.spin, &momentum], &f.weight(setup))
-    }
-
     /// Energy of the clump as it is now.
     pub fn energy_at(&self, k: usize, setup: &Setup) -> Option<f64> {
         let f = self.body_of(k)?;

@@ -9,14 +9,13 @@
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
-use crate::passes::ledger::close_crossing;
+use crate::passes::ledger::carried_in_the_middle;
 use crate::passes::touching::touching;
-use crate::passes::zones::ledger::power_of_member;
+use crate::passes::zones::muted::take_along;
 use crate::passes::zones::travel::follow_motion;
 use crate::passes::zones::whole::{rows_with, test_point, test_point_before};
 use crate::setup::{Crossing, EntryClump, Particle, Touch, cluster_of};
 use crate::state::clumps::starts;
-use crate::state::ledger::carried;
 use crate::state::{Direction, ListStatus, State, ZoneParticle};
 use geom::Vec3;
 use nalgebra::UnitQuaternion;
@@ -44,7 +43,7 @@ pub fn find_crossings(model: &Model, state: &mut State, lists: &NeighbourLists) 
     found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.time.total_cmp(&b.1.time)).then(a.1.outlet.cmp(&b.1.outlet)));
     found.dedup_by_key(|f| f.0);
     for (k, crossing) in found {
-        take_over(model, state, k, crossing);
+        take_over(model, state, lists, k, crossing);
     }
     state.zones.crossings.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.particle.id.cmp(&b.particle.id)));
 }
@@ -101,12 +100,12 @@ fn passage(state: &State, outlet: usize, k: usize) -> Option<PlanePassage> {
 }
 
 /// Particle `k`, and all members of its clump, move by the motion of the zone from its passage on.
-fn take_over(model: &Model, state: &mut State, k: usize, crossing: Crossing) {
+fn take_over(model: &Model, state: &mut State, lists: &NeighbourLists, k: usize, crossing: Crossing) {
     let since = crossing.time;
     let zone = state.zones.outlets[crossing.outlet as usize];
-    let after = state.time() - since;
     if model.setup.ledger {
-        book_leaving(model, state, k, (&crossing.particle, crossing.clump.as_ref()), after);
+        book_leaving(model, state, k);
+        take_along(model, state, lists, k);
     }
     let (starts, turn) = starts(&crossing.particle, crossing.clump.as_ref(), &model.setup);
     let (centre, lead) = (crossing.particle.position, zone.lead(crossing.particle.radius));
@@ -127,25 +126,11 @@ fn take_over(model: &Model, state: &mut State, k: usize, crossing: Crossing) {
     state.zones.crossings.push(crossing);
 }
 
-/// What leaves the ledger with free particle `k`, which was like this when it left, `after` [s] before the end of the step.
-pub fn book_leaving(
-    model: &Model,
-    state: &mut State,
-    k: usize,
-    (start, clump): (&Particle, Option<&EntryClump>),
-    after: f64,
-) {
-    let carried: f64 = match clump {
-        None => carried(start, &model.setup).iter().sum(),
-        Some(clump) => state.clumps.energy_of(k, start, clump, &model.setup),
-    };
-    let power: f64 = rows_with(state, k).iter().map(|&m| power_of_member(state, m as usize, start)).sum();
-    let taken = carried + power * after;
-    state.ledger.left += taken;
-    match state.clumps.energy_before_half(k, &model.setup, model.dt) {
-        None => close_crossing(model, state, k, taken),
-        Some(energy) => state.ledger.passed += taken - energy,
-    }
+/// What leaves the ledger with free particle `k`, and all that passes together with it: what they had in the middle of the last move. From then on the
+/// work of what they still act on is that of zone particles.
+pub fn book_leaving(model: &Model, state: &mut State, k: usize) {
+    let of_clump = state.clumps.energy_before_half(k, &model.setup, model.dt);
+    state.ledger.left += of_clump.unwrap_or_else(|| carried_in_the_middle(model, state, k));
 }
 
 /// State of particle `k` at its passage; its tested point is now `past` [m] behind the plane.

@@ -3,7 +3,7 @@
 
 use crate::model::{Halt, Model, Partner};
 use crate::neighbours::NeighbourLists;
-use crate::passes::zones::cross::{book_leaving, state_back};
+use crate::passes::zones::cross::book_leaving;
 use crate::passes::zones::travel::exclude;
 use crate::passes::zones::whole::{rows_with, test_point};
 use crate::setup::CameBack;
@@ -68,8 +68,7 @@ fn remove_behind(model: &Model, state: &mut State, lists: &NeighbourLists, k: us
 pub fn remove(model: &Model, state: &mut State, lists: &NeighbourLists, k: usize, inlet: u32) {
     state.zones.lost.returned.removed[inlet as usize] += 1;
     if model.setup.ledger {
-        let (particle, clump) = state_back(model, state, k, 0.0);
-        book_leaving(model, state, k, (&particle, clump.as_ref()), 0.0);
+        book_leaving(model, state, k);
     }
     for member in rows_with(state, k) {
         let member = member as usize;

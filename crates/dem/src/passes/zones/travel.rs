@@ -4,7 +4,7 @@ use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::touching::position_before;
 use crate::passes::zones::history::restore_history;
-use crate::passes::zones::ledger::held;
+use crate::passes::zones::muted::held;
 use crate::passes::zones::whole::test_point;
 use crate::setup::Particle;
 use crate::simd::Row4;
@@ -100,7 +100,7 @@ fn position(model: &Model, state: &mut State, k: usize, mut position: Vec3, flow
 /// Out of reach of all others until the next listing drops it.
 pub fn exclude(model: &Model, state: &mut State, lists: &NeighbourLists, k: usize) {
     if model.setup.ledger {
-        let held = held(state, lists, k) + state.bonds.held(k);
+        let held = held(model, state, lists, k) + state.bonds.held(k);
         state.ledger.left += held;
         state.ledger.passed += held;
     }

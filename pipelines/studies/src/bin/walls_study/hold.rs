@@ -15,9 +15,9 @@ const SHARES: [f64; 5] = [0.02, 0.05, 0.1, 0.2, 0.4];
 /// μ of the grain on the wall.
 const MU: f64 = 0.3;
 
-/// Down along 0.3 rad from a row, in steps of 2°.
+/// Down along 0.3 rad from a row, in steps of 1°.
 const TILTING: Tilting =
-    Tilting { azimuth: 0.3, from: 0.0, step: std::f64::consts::PI / 90.0, stiffness: 3e3 };
+    Tilting { azimuth: 0.3, from: 0.0, step: std::f64::consts::PI / 180.0, stiffness: 3e3 };
 
 /// One wall.
 struct Found {
@@ -141,7 +141,7 @@ fn words(page: &mut Page, all: &[Found]) {
          follows from the slope of the surface on which the grain's centre moves: arcsin of (distance from \
          a sphere's axis)/(R + r). It grows with ζ/P and with P/d. Between methods the hold differs by at \
          most \
-         {spread:.1}°; the intervals are in the table. The tilt changes in steps of 2°.",
+         {spread:.1}°; the intervals are in the table. The tilt changes in steps of 1°.",
         at(0.5, 0.02),
         at(1.0, 0.1),
         at(2.0, 0.2),

@@ -1,0 +1,112 @@
+//! The ledger of stages: what grains take along through a cut and bring in again, with walls, with each other, and with the ledger on both sides.
+
+use super::*;
+use dem::Energy;
+use geom::mesh::TriMesh;
+use std::collections::BTreeMap;
+
+/// Direction of flow down a chute of 30°, and across it.
+fn axes() -> [Vec3; 2] {
+    let (sin, cos) = 30f64.to_radians().sin_cos();
+    [Vec3::new(cos, 0.0, -sin), Vec3::new(sin, 0.0, cos)]
+}
+
+/// A chute: a plane, two triangles, or spheres.
+fn chutes() -> [(&'static str, WallShape); 3] {
+    let [down, up] = axes();
+    let at = |u: f64, y: f64| down * u + Vec3::y() * y;
+    let corners = [at(-0.5, -0.2), at(0.8, -0.2), at(0.8, 0.2), at(-0.5, 0.2)].to_vec();
+    let mesh = TriMesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).expect("sound");
+    let row = |k: i32| (-3..=3).map(move |n| at(0.012 * f64::from(k), 0.012 * f64::from(n)) - up * 0.08);
+    let spheres = (-15..60).flat_map(row).map(|c| (c, 0.08)).collect();
+    let plane = Plane { point: Vec3::zeros(), normal: up };
+    [
+        ("plane", WallShape::Plane(plane)),
+        ("mesh", WallShape::Mesh(mesh)),
+        ("spheres", WallShape::Spheres(spheres)),
+    ]
+}
+
+/// A heap of grains that slides down a chute.
+fn plant(shape: WallShape) -> Setup {
+    let [down, up] = axes();
+    let mut setup = with_friction(empty(HOOKE, 0.5), 0.2);
+    setup.step = Step::Fixed(1e-5);
+    setup.gravity = Vec3::new(0.0, 0.0, -9.81);
+    setup.ledger = true;
+    setup.walls = vec![Wall::new("chute", 1, shape)];
+    let place = |k: u32| {
+        let (i, j, n) = (k % 3, k / 3 % 2, k / 6);
+        down * (0.0195 * f64::from(i))
+            + Vec3::y() * (0.0195 * f64::from(j))
+            + up * (0.0101 + 0.0195 * f64::from(n))
+    };
+    setup.particles = (0..12).map(|k| Particle { velocity: down * 0.5, ..grain(k, place(k)) }).collect();
+    setup
+}
+
+fn cut(motion: ZoneMotion) -> Zone {
+    Zone { motion, ..Zone::new(Plane { point: axes()[0] * 0.1, normal: axes()[0] }, 0.03) }
+}
+
+/// The ledger now and then, and what has crossed.
+fn run(mut sim: Simulation, mut feed: Vec<Entry>, until: f64) -> (Vec<Energy>, Vec<Crossing>) {
+    let (mut seen, mut crossed) = (Vec::new(), Vec::new());
+    let mut next = 0.0;
+    feed.reverse();
+    while sim.time() < until {
+        while let Some(entry) = feed.pop_if(|e| e.time < sim.time() + sim.look_ahead()) {
+            sim.enter(entry).expect("in time");
+        }
+        sim.step().expect("no guard");
+        crossed.extend(sim.take_crossings());
+        if sim.time() >= next {
+            seen.push(sim.energy().expect("ready"));
+            next += 0.002;
+        }
+    }
+    (seen, crossed)
+}
+
+/// The largest energy that the step has made so far, over what the plant exchanges.
+fn made(seen: &[Energy]) -> f64 {
+    seen.iter().map(|e| e.integration.abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_cut_makes_no_energy_on_either_side() {
+    let until = 0.35;
+    for (name, shape) in chutes() {
+        let whole = plant(shape.clone());
+        let (undivided, _) = run(Simulation::new(whole.clone()).expect("sound"), vec![], until);
+        let end = undivided.last().expect("it ran");
+        let (exchanged, own) = (end.exchanged(), made(&undivided));
+        for motion in [ZoneMotion::Constant, ZoneMotion::Ballistic] {
+            let up = Setup { outlets: vec![cut(motion)], ..whole.clone() };
+            let (upstream, crossed) = run(Simulation::new(up).expect("sound"), vec![], until);
+            assert_eq!(crossed.len(), 12, "{name}: all pass");
+            let mut down = Setup { inlets: vec![cut(motion)], particles: vec![], ..whole.clone() };
+            (down.smallest_entry, down.largest_entry, down.entry_materials) = (0.01, 0.01, vec![0]);
+            let entry = |c: &Crossing| Entry {
+                time: c.time,
+                inlet: 0,
+                particle: c.particle,
+                clump: None,
+                turn: None,
+                cluster: 0,
+            };
+            let feed = crossed.iter().map(entry).collect();
+            let (downstream, _) = run(Simulation::new(down).expect("sound"), feed, until);
+            for (side, seen) in [("upstream", &upstream), ("downstream", &downstream)] {
+                let start = seen[0].balance();
+                let drift = seen.iter().map(|e| (e.balance() - start).abs()).fold(0.0, f64::max);
+                println!(
+                    "{name} {motion:?} {side}: made {:e} of {exchanged:e}, undivided {own:e}, drift {drift:e}",
+                    made(seen)
+                );
+            }
+            let ids: BTreeMap<u32, f64> = crossed.iter().map(|c| (c.particle.id, c.time)).collect();
+            assert_eq!(ids.len(), 12);
+        }
+    }
+}
