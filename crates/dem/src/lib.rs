@@ -100,4 +100,4 @@ pub use space::rotation::spun;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use space::sphere::mass;
 #[cfg(not(target_arch = "nvptx64"))]
-pub use state::{BondState, Crack, Energy, Held, Returned};
+pub use state::{BondState, Crack, Energy, Held, HeldBack, Returned};

@@ -16,6 +16,8 @@ const MOST_TRIES: usize = 40;
 const PACKING: f64 = 0.7;
 /// Local density is counted in a disk of this many spacings.
 const DENSITY_DISK: f64 = 3.0;
+/// Median distance of nearest points over the spacing above which the spacing says nothing about them [–].
+const SPARSE: f64 = 1.5;
 
 /// Counts below this are met exactly: there one point is half a percent.
 const FEW: usize = 200;
@@ -208,9 +210,11 @@ fn by_density(points: &[Vec3], low: f64, high: f64, throw: impl Fn(&Cells, f64) 
     }
 }
 
-/// Median number of points per area around a point [1/m²], each counted in a disk of three spacings.
+/// Median number of points per area around a point [1/m²], each counted in a disk of three spacings: of the points' own, where they are farther apart than
+/// `spacing` [m] says, since a disk that holds its own point alone has the density of that disk.
 pub fn median_density(points: &[Vec3], spacing: f64) -> f64 {
-    let disk = DENSITY_DISK * spacing;
+    let apart = crate::nearest::typical(points).filter(|apart| *apart > SPARSE * spacing);
+    let disk = DENSITY_DISK * apart.unwrap_or(spacing);
     let cells = Cells::new(points, disk);
     let mut counts = cells.map(|slot| cells.count_near(slot, disk, u32::MAX / 2));
     counts.sort_unstable();

@@ -42,6 +42,9 @@ pub struct WallReport {
     pub roughness: f64,
     /// Least, mean and largest radius [m].
     pub radius_range: [f64; 3],
+    /// How far the least and the most of the wall stands in front of the points [m]: the radii where the centres are on the points, `None` where the
+    /// surface is.
+    pub in_front: Option<[f64; 2]>,
     /// How far the dents are from those asked for.
     pub changes: Changes,
     /// The pairs of which `changes` tells, where they were asked for.
@@ -90,6 +93,7 @@ pub fn build(
         spacing_range: range(&found.lengths),
         roughness: zeta_all,
         radius_range: [range(&radii)[0], radii.iter().sum::<f64>() / radii.len() as f64, range(&radii)[1]],
+        in_front: (settings.placement == Placement::Centre && !settings.of_drawing).then(|| range(&radii)),
         changes,
         changed: if settings.list_changes { list(&cells, &found, &asked, &radii) } else { Vec::new() },
         deep_dents: if is_asked && !settings.of_drawing {

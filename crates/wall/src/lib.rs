@@ -141,7 +141,7 @@ pub enum WallError {
     BadParticle(f64),
     #[error(
         "wall spheres of radius {} m are larger than the whole cloud: the cloud is {} m wide: is it in millimetres? \
-         Give all lengths in metres",
+         Give all lengths in metres; else use a smaller spacing or more roughness: the radius is about spacing² over 8 times the roughness",
         Shown(*radius), Shown(*width)
     )]
     LargerThanCloud { radius: f64, width: f64 },

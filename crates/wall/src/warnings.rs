@@ -13,6 +13,9 @@ const PRACTICAL: f64 = 0.8;
 /// Median wall sphere radius over smallest particle diameter above which a unit is likely wrong [–].
 const FAR_LARGER: f64 = 20.0;
 
+/// Share of the width of a cloud above which a wall that stands so far in front of its points has another shape [–].
+const IN_FRONT: f64 = 0.02;
+
 /// A wall that was built, and what it was built from.
 pub(crate) struct Built<'a> {
     pub(crate) points: &'a [Vec3],
@@ -35,9 +38,11 @@ pub(crate) fn judge(
     if let Some(deep) = &report.deep_dents {
         report.warnings.push(too_deep(deep, spacing));
     }
-    if let Radius::Given(radius) = settings.radius {
-        check_given(report, radius, built);
+    match settings.radius {
+        Radius::Given(radius) => check_given(report, radius, built),
+        _ => check_found(report, built)?,
     }
+    check_place(report, built);
     if let Some(largest) = settings.largest_particle {
         check_largest(report, largest);
     }
@@ -52,6 +57,12 @@ pub(crate) fn judge(
 }
 
 impl Built<'_> {
+    /// Longest side of the box around the points [m].
+    fn width(&self) -> f64 {
+        let (low, high) = geom::grid::bounds(self.points);
+        (high - low).max()
+    }
+
     /// The widest gap, and how many pass a particle of this diameter [m].
     fn widest_gap(&self, particle: f64) -> (Option<leak::Gap>, usize) {
         leak::widest(self.centres, self.radii, &self.stars.triangles, &self.stars.outline, particle)
@@ -60,8 +71,7 @@ impl Built<'_> {
 
 /// Warns of a given radius [m] that is larger than the whole cloud.
 fn check_given(report: &mut WallReport, radius: f64, built: &Built) {
-    let (low, high) = geom::grid::bounds(built.points);
-    let width = (high - low).max();
+    let width = built.width();
     if radius > width {
         report.warnings.push(format!(
             "the given radius of {} m is larger than the cloud, which is {} m wide: is it in millimetres?",
@@ -71,10 +81,32 @@ fn check_given(report: &mut WallReport, radius: f64, built: &Built) {
     }
 }
 
+/// Refuses spheres larger than the cloud that follow from its roughness.
+fn check_found(report: &WallReport, built: &Built) -> Result<(), WallError> {
+    let (width, radius) = (built.width(), report.radius_range[2]);
+    if radius > width { Err(WallError::LargerThanCloud { radius, width }) } else { Ok(()) }
+}
+
+/// Warns of a wall that stands far in front of the points, or in steps.
+fn check_place(report: &mut WallReport, built: &Built) {
+    let Some([least, most]) = report.in_front.filter(|[_, most]| *most > IN_FRONT * built.width()) else {
+        return;
+    };
+    let step = match most - least > 0.5 * most {
+        true => format!(", and by {} m less where it is rougher", Shown(most - least)),
+        false => String::new(),
+    };
+    report.warnings.push(format!(
+        "the centres of the spheres are on the points, so the wall stands {} m in front of them{step}; the cloud is {} m wide: give the flow side, \
+         --facing x,y,z or --flow-at x,y,z, and the wall goes through the points",
+        Shown(most),
+        Shown(built.width())
+    ));
+}
+
 /// Refuses spheres larger than the cloud; warns of those far larger than the smallest particle [m].
 fn check_sizes(report: &mut WallReport, particle: f64, built: &Built) -> Result<(), WallError> {
-    let (low, high) = geom::grid::bounds(built.points);
-    let (width, radius) = ((high - low).max(), report.radius_range[2]);
+    let (width, radius) = (built.width(), report.radius_range[2]);
     if radius > width {
         return Err(WallError::LargerThanCloud { radius, width });
     }

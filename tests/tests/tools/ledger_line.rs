@@ -72,6 +72,17 @@ fn an_elastic_gas_keeps_its_energy_in_the_step_that_is_chosen() {
     );
 }
 
+/// Grains of a lattice that touch up to the rounding of their places, 1e-18 m deep, and do not move: no energy to compare with, no warning, no guard.
+#[test]
+fn what_touches_by_rounding_does_not_move() {
+    let toml = "[time]\nuntil = 0.01\n[guards]\nenergy = 0.01\n[output]\nenergy = true\n[[material]]\nname = \"a\"\ndensity = 1065\nyoung = 1e6\n\
+                poisson = 0.4\n[[contact]]\nbetween = [\"a\", \"a\"]\nlaw = \"hooke\"\nrestitution = 1\nstiffness = 12960\n[[fill]]\n\
+                material = \"a\"\nlattice = \"cubic\"\ndiameter = 0.0095\nshape = \"box:0,0,0,0.03,0.03,0.02\"\n";
+    let folder = folder(&[("s.toml", toml.to_owned())]);
+    let done = succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
+    assert!(!done.stderr.contains("warning") && !done.stderr.contains("integration"), "{}", done.stderr);
+}
+
 /// A run that keeps the ledger stops where the step makes too much energy; one without it knows nothing of that. 5 % where contacts are sampled.
 #[test]
 fn the_ledger_stops_a_run_whose_step_makes_energy() {

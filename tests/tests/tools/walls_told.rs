@@ -125,7 +125,7 @@ fn options_that_change_no_sphere_are_refused() {
     };
     for (options, wanted) in [
         ("--radius 0.006 --representative mean", "--representative: the radius is given (--radius 0.006)"),
-        ("--radius 0.006 --facing 0,0,1", "--facing: the flow side changes nothing"),
+        ("--radius 0.006 --facing 0,0,1 --place centre", "--facing: the flow side changes nothing"),
         ("--radius 0.006 --flow-at 0,0,1 --place centre", "--flow-at: the flow side changes nothing"),
     ] {
         let done = wall(options);

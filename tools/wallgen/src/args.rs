@@ -31,10 +31,10 @@ pub struct Args {
     /// Which average of the neighbour distances the radii follow from (default: mean)
     #[arg(long, value_enum)]
     representative: Option<Middle>,
-    /// Which point of a sphere lies on the scanned point: its centre, or its surface on the flow side (default: centre; for a drawing: surface)
+    /// Which point of a sphere lies on the scanned point: its surface on the flow side, or its centre (default: surface where the flow side is known, by --facing, --flow-at or a drawing; else centre)
     #[arg(long, value_enum)]
     place: Option<Place>,
-    /// Direction to the flow side, for --place surface
+    /// Direction to the flow side: the surfaces of the spheres go through the points
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true)]
     facing: Option<Vec3>,
     /// A point in the flow [m], instead of --facing: for closed equipment, and to choose the side of a drawing
@@ -122,6 +122,7 @@ impl Args {
                 ));
             }
             Some(Place::Surface) => Placement::Surface,
+            None if has_flow => Placement::Surface,
             Some(Place::Centre) | None => Placement::Centre,
         };
         let representative = match self.representative {
@@ -241,10 +242,10 @@ impl Args {
             )));
         }
         let flow = self.facing.map(|_| "--facing").or(self.flow_at.map(|_| "--flow-at"));
-        match flow.filter(|_| !self.is_drawing() && !matches!(self.place, Some(Place::Surface))) {
+        match flow.filter(|_| !self.is_drawing() && matches!(self.place, Some(Place::Centre))) {
             Some(option) => Err(cli::usage(format!(
-                "{option}: the flow side changes nothing with the centres on the points: leave it out, or add \
-                 --place surface"
+                "{option}: the flow side changes nothing with the centres on the points: leave it out, or \
+                 --place centre"
             ))),
             None => Ok(()),
         }

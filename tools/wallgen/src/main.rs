@@ -47,6 +47,7 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
     }
     report.warnings.iter().for_each(|w| cli::warn(w));
     let words = summary(&report, &settings, drawn.as_ref())
+        + &in_front(&report)
         + &of_drawing(added)
         + &in_steps(&regions)
         + &passes(&report, &settings);
@@ -66,6 +67,19 @@ fn as_cloud(mut cloud: cloud::Cloud, wall: &Wall, regions: &Regions) -> anyhow::
     cloud.attributes.replace("radius", Values::F64(wall.radii.clone()))?;
     wall.push_attributes(&mut cloud.attributes, regions)?;
     Ok(cloud)
+}
+
+/// How far the wall stands in front of the points, where the centres are on them.
+fn in_front(report: &WallReport) -> String {
+    match report.in_front {
+        Some([least, most]) if Shown(least).to_string() == Shown(most).to_string() => {
+            format!("; the wall stands {} m in front of the points", Shown(most))
+        }
+        Some([least, most]) => {
+            format!("; the wall stands {} to {} m in front of the points", Shown(least), Shown(most))
+        }
+        None => String::new(),
+    }
 }
 
 /// How many spheres stand on the drawing, if there is one beside the cloud.

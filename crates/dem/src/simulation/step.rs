@@ -27,6 +27,7 @@ impl Simulation {
         }
         let found = sweep::forces_and_move(model, state, lists);
         ledger::add_contacts(model, state, lists);
+        zones::held_back::add(model, state, lists);
         if let Some(sleepers) = &mut state.sleepers {
             state.ledger.slept += sleepers.end_step(lists.slots.tile);
         }

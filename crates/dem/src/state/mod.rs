@@ -29,7 +29,7 @@ pub use ledger::{DrivenBody, LedgerSums};
 pub use mount::MountState;
 pub use particles::{Particles, SpareColumns};
 pub use path::{EARLY, Path, PathEnd};
-pub use returned::{ReturnCounts, Returned};
+pub use returned::{HeldBack, ReturnCounts, Returned};
 pub use servo::{Governor, Held, ServoState};
 pub use sleepers::{SleepMap, SleeperSlices, Sleepers};
 pub use zone_particle::{Direction, Kinematics, ZoneParticle};

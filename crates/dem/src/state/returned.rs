@@ -16,8 +16,19 @@ pub(crate) struct Origin {
     pub(crate) behind: bool,
 }
 
-/// How many particles went back.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// How much the particles in the zone of an outlet hold back those that follow, which an undivided stream does not.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct HeldBack {
+    /// Of free particles on those in the zone, along the flow [N s].
+    pub impulse: f64,
+    /// Of those that passed the storage plane, along the flow [N s].
+    pub momentum: f64,
+    /// How many passed.
+    pub passed: u64,
+}
+
+/// How many particles went back, and what cuts do to the stream.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Returned {
     /// For each watched inlet: particles that were behind its calculation plane again.
     pub inlets: Vec<u64>,
@@ -27,6 +38,8 @@ pub struct Returned {
     pub outlets: Vec<u64>,
     /// For each outlet: particles that were recorded, and fell back through the plane in the zone.
     pub fallen: Vec<u64>,
+    /// For each outlet: how much it holds back.
+    pub held_back: Vec<HeldBack>,
 }
 
 /// Where particles came from.
@@ -49,6 +62,7 @@ impl ReturnCounts {
             removed: none(watched),
             outlets: none(outlets),
             fallen: none(outlets),
+            held_back: vec![HeldBack::default(); outlets],
         };
         let origins = if watched > 0 { vec![Origin::default(); particles] } else { Vec::new() };
         ReturnCounts { origins, any: false, returned }

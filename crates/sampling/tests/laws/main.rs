@@ -139,6 +139,14 @@ fn densities_are_met() {
     let made = sample(&points, None, &settings(Amount::Density(3000.0, 4000.0), Method::Poisson)).unwrap();
     let density = sampling::median_density(&pick(&points, &made.kept), made.spacing);
     assert!((3000.0..4000.0).contains(&density), "{density}");
+    // More than the cloud has: all points, at their own density, is the best there is, and what is reported.
+    let own = sampling::median_density(&points, sampling::nearest_distances(&points).unwrap().median);
+    for factor in [1.5, 5.0, 50.0] {
+        let amount = Amount::Density(factor * own, 1.3 * factor * own);
+        let made = sample(&points, None, &settings(amount, Method::Poisson)).unwrap();
+        let found = sampling::median_density(&pick(&points, &made.kept), made.spacing);
+        assert!(found < 1.2 * own && found > 0.7 * own, "{factor}: {found} of {own}");
+    }
 }
 
 /// Another program's thinning of a scan like this one to as many points leaves a variation of 0.191.

@@ -125,7 +125,11 @@ fn sizes_that_cannot_be_meant_are_refused() {
         ("\"none.csv\"", "none.csv"),
         ("\"down.csv\"", "is no sieve curve"),
         ("{ law = \"normal\" }", "there are \"log-normal\""),
-        ("{ law = \"log-normal\", median = 0.01, deviation = 0.1, from = 1, to = 2 }", "leave 0.0 %"),
+        ("{ law = \"log-normal\", median = 0.01, deviation = 0.1, from = 1, to = 2 }", "leave 0.000 %"),
+        (
+            "{ law = \"log-normal\", median = 0.01, deviation = 0.3, from = 0.012, to = 0.014 }",
+            "0.012, law = \"log-normal\", median = 0.01, to = 0.014 }: 'from' and 'to' leave",
+        ),
         (
             "{ law = \"rosin-rammler\", size = 0.01, spred = 3, from = 0.001, to = 0.02 }",
             "spred: is not known here",

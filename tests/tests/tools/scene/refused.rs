@@ -282,6 +282,16 @@ const FRICTION: &[Change] = &[
 ];
 
 const WALLS: &[Change] = &[
+    wrong(
+        "[[wall]]",
+        "[[wall]]\nname = \"again\"\nplane = \"3,4,-0.01,0,0,2\"\nmaterial = \"sinter\"\n[[wall]]",
+        &["wall 'floor': is the same surface as wall 'again'", "take one of them out"],
+    ),
+    wrong(
+        "plane = \"0,0,-0.01,0,0,1\"",
+        "box = [0, 0, -0.01, 1, 1, 1]\nfaces = [\"x-\", \"z-\", \"x-\"]",
+        &["wall 'floor x-': is the same surface as wall 'floor x-'"],
+    ),
     wrong("material = \"steel\"\n", "", &["wall.0", "material is missing"]),
     wrong("plane = \"0,0,-0.01,0,0,1\"", "mesh = \"no.ply\"", &["no.ply: cannot read the file"]),
     wrong("plane = \"0,0,-0.01,0,0,1\"", "source = \"no.mcap\"", &["no.mcap: cannot read the file"]),

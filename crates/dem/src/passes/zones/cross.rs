@@ -11,6 +11,7 @@ use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::ledger::carried_in_the_middle;
 use crate::passes::touching::touching;
+use crate::passes::zones::held_back;
 use crate::passes::zones::muted::take_along;
 use crate::passes::zones::travel::follow_motion;
 use crate::passes::zones::whole::{rows_with, test_point, test_point_before};
@@ -101,6 +102,7 @@ fn passage(state: &State, outlet: usize, k: usize) -> Option<PlanePassage> {
 
 /// Particle `k`, and all members of its clump, move by the motion of the zone from its passage on.
 fn take_over(model: &Model, state: &mut State, lists: &NeighbourLists, k: usize, crossing: Crossing) {
+    held_back::count(state, k, &crossing);
     let since = crossing.time;
     let zone = state.zones.outlets[crossing.outlet as usize];
     if model.setup.ledger {

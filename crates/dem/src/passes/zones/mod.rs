@@ -1,10 +1,11 @@
 //! Zones: particles that move by a prescribed motion, feel nothing, and act on others.
 //!
 //! `enter` inserts what is due, `travel` moves zone particles, `cross` finds crossings of storage planes, `paths` records paths,
-//! `history` carries contact history through a cut, `returned` counts what goes back, `removed` takes it out, `ledger` books the energy.
+//! `history` carries contact history through a cut, `returned` counts what goes back, `removed` takes it out, `ledger` books the energy, `held_back` what a cut does to the stream.
 
 pub mod cross;
 pub mod enter;
+pub mod held_back;
 pub mod history;
 pub mod ledger;
 pub mod muted;

@@ -11,6 +11,7 @@ use crate::neighbours::NeighbourLists;
 use crate::passes::zones::whole::rows_with;
 use crate::setup::Particle;
 use crate::state::State;
+use geom::Vec3;
 
 /// Contacts of particle `k` that act on nothing while it is in a zone.
 fn passive<'a>(state: &'a State, lists: &'a NeighbourLists, k: usize) -> impl Iterator<Item = SlotEnd> + 'a {
@@ -26,6 +27,15 @@ fn is_passive(state: &State, lists: &NeighbourLists, end: SlotEnd) -> bool {
 /// Power [W] on particle `k` of a zone, which moves like this, of its contacts that act on nothing.
 pub fn power_of_passive(state: &State, lists: &NeighbourLists, k: usize, moving: &Particle) -> f64 {
     passive(state, lists, k).map(|end| power_at(state, end, moving)).sum()
+}
+
+/// Force [N] on particle `k` of a zone of its contacts that act on nothing.
+pub fn force_of_passive(state: &State, lists: &NeighbourLists, k: usize) -> Vec3 {
+    let of = |end: SlotEnd| {
+        let force = state.contacts.force(end.slot());
+        if end.is_second() { -force } else { force }
+    };
+    passive(state, lists, k).map(of).sum()
 }
 
 /// Energy [J] that contact `end` of particle `k` holds half a step before the instant of its row, or after it.

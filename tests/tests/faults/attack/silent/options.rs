@@ -37,7 +37,7 @@ pub const FREE: &[(&str, &str, &str)] = &[
     ("stone-pack", "--tolerance", "every try may be too heavy for any of them"),
     ("wallgen", "--flow-at", "names the side that a closed drawing has anyway"),
     ("wallgen", "--largest-particle", "a check that finds nothing"),
-    ("wallgen", "--place", "centre is the default"),
+    ("wallgen", "--place", "is what follows from the flow side"),
     ("wallgen", "--smallest-particle", "a check that finds nothing"),
     ("wallgen", "--units", "the unit that the file has anyway"),
 ];
