@@ -222,6 +222,9 @@ fn keep(found: &mut BTreeMap<String, Worst>, group: String, worst: Worst) {
 }
 
 /// The largest number of the group of each column.
+/// Share of a velocity over a radius below which a spin is rounding [–].
+const ROUNDED_SPIN: f64 = 1e-6;
+
 fn largest(columns: &[String], rows: &[Named]) -> Vec<f64> {
     let mut all: Vec<f64> =
         (0..columns.len()).map(|k| rows.iter().map(|r| r.values[k].abs()).fold(0.0, f64::max)).collect();
@@ -231,6 +234,14 @@ fn largest(columns: &[String], rows: &[Named]) -> Vec<f64> {
         let most = all[k..k + wide].iter().copied().fold(0.0, f64::max);
         all[k..k + wide].fill(most);
         k += wide;
+    }
+    // Spins that are nothing beside velocities over radii are the rounding of these.
+    let at = |name: &str| columns.iter().position(|c| c == name);
+    if let (Some(w), Some(v), Some(r)) = (at("wx"), at("vx"), at("radius"))
+        && all[r] > 0.0
+    {
+        let most = all[w].max(ROUNDED_SPIN * all[v] / all[r]);
+        all[w..w + 3].fill(most);
     }
     // A ledger's terms are parts of one sum.
     if columns == ["energy"] {
