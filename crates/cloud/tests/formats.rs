@@ -47,7 +47,7 @@ fn ply_keeps_every_property_in_its_place() {
 }
 
 #[test]
-fn ply_meshes_come_back_and_polygons_become_fans() {
+fn ply_meshes_come_back_and_squares_become_fans() {
     let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
                 element face 1\nproperty list uchar int vertex_indices\nend_header\n\
                 0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
@@ -310,6 +310,22 @@ fn a_drawing_is_a_cloud_of_its_corners() {
         points.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.y.total_cmp(&b.y)).then(a.x.total_cmp(&b.x)));
         assert_eq!(points, corners.map(geom::Vec3::from));
     }
+    let remarks = cloud::read(&b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\nl 1 4\n"[..]).unwrap();
+    assert_eq!(
+        (remarks.points.len(), &remarks.comments[..]),
+        (
+            3,
+            &[
+                "the corners of 1 triangles".to_owned(),
+                "1 lines (l) were left out: they are no surface".to_owned()
+            ][..]
+        )
+    );
+    let vertices = cloud::read(&b"v 0 0 0\nv 1 0 0\nv 0 1 0\n"[..]).unwrap();
+    assert_eq!(
+        (vertices.points.len(), &vertices.comments[0][..]),
+        (3, "the vertices of a drawing without faces")
+    );
     let told = cloud::read(&b"ISO-10303-21;\nHEADER;\n"[..]).unwrap_err().to_string();
     assert!(told.contains("this is STEP") && told.contains("export STL"), "{told}");
 }
