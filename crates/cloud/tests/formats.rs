@@ -189,6 +189,61 @@ fn pcd_as_text_and_binary() {
     assert!(refused(text.replace(" x y z ", " a y z ")).contains("no fields x, y, z"));
 }
 
+/// As ROS and PCL write it: bytes that only fill a point up, several values of a name, a remark before the head.
+#[test]
+fn pcd_with_padding_and_several_values() {
+    let head = |data: &str| {
+        format!(
+            "# exported\nVERSION 0.7\nFIELDS _ x y z _ hist ring _\nSIZE 4 4 4 4 1 4 2 1\nTYPE F F F F U F U U\n\
+             COUNT 1 1 1 1 4 2 1 10\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA {data}\n"
+        )
+    };
+    let mut binary = head("binary").into_bytes();
+    for k in [0u8, 1] {
+        [9.0, 1.0, 2.0, 3.0].iter().for_each(|c: &f32| binary.extend((c + f32::from(k)).to_le_bytes()));
+        binary.extend([255; 4]);
+        [5.0, 6.0].iter().for_each(|c: &f32| binary.extend((c + f32::from(k)).to_le_bytes()));
+        binary.extend([7 + k, 0]);
+        binary.extend([255; 10]);
+    }
+    let blank = "0 ".repeat(10);
+    let text = head("ascii") + &format!("9 1 2 3 0 0 0 0 5 6 7 {blank}\n10 2 3 4 0 0 0 0 6 7 8 {blank}\n");
+    for bytes in [&binary, text.as_bytes()] {
+        let cloud = read(bytes);
+        assert_eq!(cloud.points, [Vec3::new(1.0, 2.0, 3.0), Vec3::new(2.0, 3.0, 4.0)]);
+        let names: Vec<&str> = cloud.attributes.columns().iter().map(|c| c.name.as_str()).collect();
+        assert_eq!(names, ["hist_0", "hist_1", "ring"]);
+        assert_eq!((column(&cloud, "hist_1"), column(&cloud, "ring")), (vec![6.0, 7.0], vec![7.0, 8.0]));
+    }
+}
+
+/// A line end behind binary data, and capitals.
+#[test]
+fn ply_as_other_programs_write_it() {
+    let head = |axes: [&str; 3]| {
+        let properties: String = axes.iter().map(|a| format!("property float {a}\n")).collect();
+        format!(
+            "ply\nformat binary_little_endian 1.0\nelement vertex 2\n{properties}property uchar k\nend_header\n"
+        )
+    };
+    let rows = [1f32, 2.0, 3.0, 4.0, 5.0, 6.0].map(f32::to_le_bytes);
+    let rows = [&rows[..3].concat()[..], &[7], &rows[3..].concat(), &[8]].concat();
+    for axes in [["x", "y", "z"], ["X", "Y", "Z"]] {
+        for end in ["", "\n", "\r\n"] {
+            let bytes = [head(axes).as_bytes(), &rows, end.as_bytes()].concat();
+            for cloud in [read(&bytes), cloud::read(bytes.as_slice()).unwrap()] {
+                assert_eq!(cloud.points, [Vec3::new(1.0, 2.0, 3.0), Vec3::new(4.0, 5.0, 6.0)]);
+                assert_eq!(cloud.attributes.columns().len(), 1);
+            }
+        }
+        for end in ["\n\n", " ", "\r\n\n", "12345678901234567"] {
+            let bytes = [head(axes).as_bytes(), &rows, end.as_bytes()].concat();
+            assert!(refused(&bytes).contains(&format!("{} bytes follow", end.len())));
+            assert!(cloud::read(bytes.as_slice()).is_err(), "{end:?}");
+        }
+    }
+}
+
 #[test]
 fn text_with_any_separator_header_and_count() {
     let plain = read("1 2 3\n4\t5\t6\r\n\n7, 8, 9\n1e1;11;12\n");
