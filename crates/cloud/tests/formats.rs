@@ -215,6 +215,47 @@ fn pcd_with_padding_and_several_values() {
         assert_eq!(names, ["hist_0", "hist_1", "ring"]);
         assert_eq!((column(&cloud, "hist_1"), column(&cloud, "ring")), (vec![6.0, 7.0], vec![7.0, 8.0]));
     }
+    let more = [&binary[..], &binary[binary.len() - 42..]].concat();
+    for told in [refused(more), refused(text.replace("POINTS 2", "POINTS 1"))] {
+        assert!(told.contains("points, and there are") && told.contains("correct POINTS"), "{told}");
+    }
+}
+
+/// A header that counts too few points loses the others.
+#[test]
+fn las_with_more_points_than_its_header_says_is_refused() {
+    for told in [200u32, 0] {
+        let mut bytes = las_bytes(false);
+        bytes[107..111].copy_from_slice(&told.to_le_bytes());
+        let message = refused(bytes);
+        assert!(message.contains(&format!("promises {told} points, and there are 300")), "{message}");
+        assert!(message.contains("repair_counters"), "{message}");
+    }
+    let behind = [&las_bytes(false)[..], b"a remark"].concat();
+    assert_eq!(read(behind).points.len(), 300, "what follows is not a point");
+}
+
+/// Degrees are not lengths.
+#[test]
+fn las_in_degrees_is_refused() {
+    let with = |text: &str| {
+        let mut builder = las::Builder::from((1, 4));
+        builder.point_format = las::point::Format::new(6).unwrap();
+        builder.vlrs.push(las::Vlr {
+            user_id: "LASF_Projection".to_owned(),
+            record_id: 2112,
+            description: String::new(),
+            data: text.as_bytes().to_vec(),
+        });
+        builder.has_wkt_crs = true;
+        let writer = las::Writer::new(Cursor::new(Vec::new()), builder.into_header().unwrap());
+        writer.unwrap().into_inner().unwrap().into_inner()
+    };
+    let degrees = "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\"],UNIT[\"degree\",0.0174532925199433]]";
+    let message = refused(with(degrees));
+    assert!(message.contains("degrees") && message.contains("reprojection"), "{message}");
+    let metres = format!("PROJCS[\"UTM\",{degrees},UNIT[\"metre\",1]]");
+    assert!(read(with(&metres)).comments[0].contains("PROJCS"));
 }
 
 /// A line end behind binary data, and capitals.

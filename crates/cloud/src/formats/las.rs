@@ -37,7 +37,7 @@ fn broken(what: impl ToString, point: u64) -> ReadError {
 fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     laz::before_the_header(&bytes).map_err(|e| broken(e, 0))?;
     let header = Header::new(Cursor::new(&bytes)).map_err(|e| broken(e, 0))?;
-    sound(&header).map_err(|e| broken(e, 0))?;
+    sound(&header).and_then(|()| projected(&header)).map_err(|e| broken(e, 0))?;
     let chunks = laz::before_the_points(&bytes, &header).map_err(|e| broken(e, 0))?;
     let length = bytes.len() as u64;
     let (promised, format) = (header.number_of_points(), header.point_format());
@@ -48,6 +48,18 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
             format!("the header promises {promised} points in {length} bytes: it is cut off"),
             0,
         ));
+    }
+    if !format.is_compressed {
+        let there = laz::records(&bytes, size);
+        if there > promised {
+            return Err(broken(
+                format!(
+                    "the header promises {promised} points, and there are {there}: correct the header (LAStools: lasinfo -i FILE \
+                     -repair_counters) or export it again"
+                ),
+                promised,
+            ));
+        }
     }
     let threads = if length < SMALL { 1 } else { rayon::current_num_threads().max(1) };
     let file = File { bytes: Bytes(Arc::new(bytes)), promised, size };
@@ -60,11 +72,15 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     for (name, values) in all.columns {
         attributes.push(name, values).map_err(|source| ReadError::Table { format: "LAS/LAZ", source })?;
     }
-    let comments = reference_system(&header).into_iter().collect();
+    let system = reference_system(&header);
+    let comments = system.into_iter().map(|name| format!("coordinate reference system {name}")).collect();
     Ok(Cloud { points: all.points, attributes, double: true, comments, ..Cloud::default() })
 }
 
-/// A comment that names the coordinate reference system: its EPSG code, or its well-known text.
+/// Mark of longitude and latitude in the keys of GeoTIFF.
+const GEOGRAPHIC: u16 = 2;
+
+/// The coordinate reference system: its EPSG code, or its well-known text.
 fn reference_system(header: &Header) -> Option<String> {
     let geotiff = || {
         let keys = header.get_geotiff_crs().ok()??;
@@ -78,8 +94,28 @@ fn reference_system(header: &Header) -> Option<String> {
             text.split(|c: char| c.is_whitespace() || c.is_control()).filter(|w| !w.is_empty()).collect();
         Some(words.join(" ")).filter(|text| !text.is_empty() && text.len() <= LONGEST)
     };
-    let name = text().or_else(|| geotiff().map(|code| format!("EPSG:{code}")))?;
-    Some(format!("coordinate reference system {name}"))
+    text().or_else(|| geotiff().map(|code| format!("EPSG:{code}")))
+}
+
+/// Refuses coordinates in degrees, which are no lengths.
+fn projected(header: &Header) -> Result<(), String> {
+    let text = String::from_utf8_lossy(header.get_wkt_crs_bytes().unwrap_or_default()).to_ascii_uppercase();
+    let holds = |words: &[&str]| words.iter().any(|word| text.contains(word));
+    let by_text = holds(&["GEOGCS", "GEOGCRS", "GEOGRAPHICCRS"])
+        && !holds(&["PROJCS", "PROJCRS", "PROJECTEDCRS", "GEOCCS", "LOCAL_CS", "ENGCRS"]);
+    let by_keys = || {
+        let keys = header.get_geotiff_crs().ok().flatten();
+        keys.is_some_and(|keys| keys.get_gt_model_type_geo_key_value() == Some(GEOGRAPHIC))
+    };
+    if by_text || text.is_empty() && by_keys() {
+        let name = reference_system(header).unwrap_or_default();
+        let name: String = name.chars().take(60).collect();
+        return Err(format!(
+            "the coordinates are degrees, not lengths ({name}): project them again, e.g. pdal translate IN.las OUT.las reprojection \
+             --filters.reprojection.out_srs=EPSG:25832 with the code of the place"
+        ));
+    }
+    Ok(())
 }
 
 /// Steps of coordinates that may be meant [m].

@@ -39,6 +39,24 @@ fn data(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     None
 }
 
+/// Refuses a file that holds more points than its header promises.
+fn no_more(bytes: &[u8], promised: u64, size: u64) -> Result<(), ReadError> {
+    let there = match data(bytes) {
+        Some((b"ascii", rest)) => {
+            rest.split(|&byte| byte == b'\n').filter(|line| !line.trim_ascii().is_empty()).count() as u64
+        }
+        Some((b"binary", rest)) => rest.len() as u64 / size.max(1),
+        _ => promised,
+    };
+    if there > promised {
+        let what = format!(
+            "the header promises {promised} points, and there are {there}: correct POINTS, WIDTH and HEIGHT, or export it again"
+        );
+        return Err(broken(what, None));
+    }
+    Ok(())
+}
+
 /// Refuses packed data that are shorter than they claim, or claim to hold more than they can.
 fn unpackable(bytes: &[u8]) -> Result<(), ReadError> {
     let Some((b"binary_compressed", data)) = data(bytes) else { return Ok(()) };
@@ -59,6 +77,8 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
     let reader = DynReader::from_bytes(bytes).map_err(|e| broken(e, None))?;
     let all = &reader.meta().field_defs.fields;
     let values = all.iter().map(|f| f.count).fold(0, u64::saturating_add);
+    let size =
+        all.iter().map(|f| f.count.saturating_mul(f.kind.byte_size() as u64)).fold(0, u64::saturating_add);
     // The reader passes over bytes that only fill a point up.
     let fields: Vec<FieldDef> = all.iter().filter(|f| !f.is_padding()).cloned().collect();
     let axis = |name: &str| fields.iter().position(|f| f.name == name && f.count == 1);
@@ -91,6 +111,7 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
             None,
         ));
     }
+    no_more(bytes, promised, size)?;
     let mut attributes = Table::with_rows(points.len());
     for (f, (field, column)) in fields.iter().zip(columns).enumerate() {
         if [x, y, z].contains(&f) {
