@@ -138,6 +138,35 @@ fn e57_bytes() -> Vec<u8> {
     file.into_inner()
 }
 
+/// What is not read is named.
+#[test]
+fn e57_properties_that_are_left_out_are_named() {
+    use e57::{Record, RecordDataType, RecordName, RecordValue as Value};
+    let mut file = Cursor::new(Vec::new());
+    let mut writer = e57::E57Writer::new(&mut file, "file").unwrap();
+    writer
+        .register_extension(e57::Extension::new("nor", "http://www.libe57.org/E57_NOR_surface_normals.txt"))
+        .unwrap();
+    let normal = RecordName::Unknown { namespace: "nor".to_owned(), name: "normalX".to_owned() };
+    let prototype = vec![
+        Record::CARTESIAN_X_F64,
+        Record::CARTESIAN_Y_F64,
+        Record::CARTESIAN_Z_F64,
+        Record { name: normal, data_type: RecordDataType::F32 },
+        Record { name: RecordName::TimeStamp, data_type: RecordDataType::F64 },
+    ];
+    let mut points = writer.add_pointcloud("scan", prototype).unwrap();
+    let of = [1.0, 2.0, 3.0].map(Value::Double).into_iter();
+    points.add_point(of.chain([Value::Single(1.0), Value::Double(7.0)]).collect()).unwrap();
+    points.finalize().unwrap();
+    writer.finalize().unwrap();
+    drop(writer);
+    let cloud = read(file.into_inner());
+    assert_eq!(cloud.points, [Vec3::new(1.0, 2.0, 3.0)]);
+    assert_eq!(cloud.comments, ["properties of the scans that were left out: nor:normalX timeStamp"]);
+    assert!(read(e57_bytes()).comments.is_empty());
+}
+
 #[test]
 fn e57_with_two_scans_and_points_without_an_echo() {
     let bytes = e57_bytes();
@@ -233,6 +262,53 @@ fn las_with_more_points_than_its_header_says_is_refused() {
     }
     let behind = [&las_bytes(false)[..], b"a remark"].concat();
     assert_eq!(read(behind).points.len(), 300, "what follows is not a point");
+}
+
+/// Extra bytes are columns, in LAS and LAZ.
+#[test]
+fn las_extra_bytes_are_columns() {
+    let description = |kind: u8, options: u8, name: &str, scale: f64, offset: f64| {
+        let mut bytes = vec![0; 192];
+        (bytes[2], bytes[3]) = (kind, options);
+        bytes[4..4 + name.len()].copy_from_slice(name.as_bytes());
+        bytes[112..120].copy_from_slice(&scale.to_le_bytes());
+        bytes[136..144].copy_from_slice(&offset.to_le_bytes());
+        bytes
+    };
+    let described = [
+        description(3, 0, "Amplitude", 0.0, 0.0),
+        description(6, 24, "Deviation (mm)", 0.5, 100.0),
+        description(2, 0, "intensity", 0.0, 0.0),
+        description(0, 2, "reserve", 0.0, 0.0),
+        description(22, 0, "side", 0.0, 0.0),
+    ];
+    for compressed in [false, true] {
+        let mut builder = las::Builder::from((1, 4));
+        builder.point_format = las::point::Format::new(1).unwrap();
+        builder.point_format.is_compressed = compressed;
+        builder.point_format.extra_bytes = 13;
+        builder.vlrs.push(las::Vlr {
+            user_id: "LASF_Spec".to_owned(),
+            record_id: 4,
+            description: String::new(),
+            data: described.concat(),
+        });
+        let mut writer = las::Writer::new(Cursor::new(Vec::new()), builder.into_header().unwrap()).unwrap();
+        for k in 0..300u16 {
+            let mut extra_bytes =
+                [&k.to_le_bytes()[..], &(-i32::from(k)).to_le_bytes(), &[0xfe, 9, 9]].concat();
+            extra_bytes.extend([1, 2, 255, 77]);
+            let point =
+                las::Point { x: f64::from(k), gps_time: Some(0.0), extra_bytes, ..las::Point::default() };
+            writer.write_point(point).unwrap();
+        }
+        let cloud = read(writer.into_inner().unwrap().into_inner());
+        assert_eq!(cloud.attributes.get("Amplitude"), Some(&Values::U32((0..300).collect())));
+        assert_eq!(column(&cloud, "Deviation_(mm)")[299], 100.0 - 0.5 * 299.0);
+        assert_eq!(cloud.attributes.get("extra_intensity"), Some(&Values::I8(vec![-2; 300])));
+        assert_eq!([0, 1, 2].map(|k| column(&cloud, &format!("side_{k}"))[7]), [1.0, 2.0, -1.0]);
+        assert_eq!(cloud.comments, ["3 extra bytes of each point were left out: nothing describes them"]);
+    }
 }
 
 /// Degrees are not lengths.

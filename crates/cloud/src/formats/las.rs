@@ -1,10 +1,12 @@
 //! LAS and LAZ, by the `las` crate.
 
+use super::las_extra::{self, ExtraColumn};
 use super::laz::{self, Bytes, Chunk, STACK, Shallow};
 use super::{ReadError, catch};
 use crate::Cloud;
 use geom::{Shown, Vec3};
 use las::{Header, LazParallelism, PointData, Reader, ReaderOptions, Transform};
+use std::borrow::Cow;
 use std::io::Cursor;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -62,7 +64,8 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
         }
     }
     let threads = if length < SMALL { 1 } else { rayon::current_num_threads().max(1) };
-    let file = File { bytes: Bytes(Arc::new(bytes)), promised, size };
+    let (extra, unknown) = las_extra::columns(&header);
+    let file = File { bytes: Bytes(Arc::new(bytes)), promised, size, extra };
     let all = match file.read(&shares(&chunks, promised, threads as u64))? {
         Some(all) => all,
         // Read one after the other there is no question where chunks begin.
@@ -70,10 +73,19 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     };
     let mut attributes = Table::with_rows(all.points.len());
     for (name, values) in all.columns {
-        attributes.push(name, values).map_err(|source| ReadError::Table { format: "LAS/LAZ", source })?;
+        // A name that the format has already, as "intensity", stays that of the format.
+        let name = if attributes.get(&name).is_some() { format!("extra_{name}").into() } else { name };
+        attributes.push(&name, values).map_err(|source| ReadError::Table { format: "LAS/LAZ", source })?;
     }
     let system = reference_system(&header);
-    let comments = system.into_iter().map(|name| format!("coordinate reference system {name}")).collect();
+    let mut comments: Vec<String> =
+        system.into_iter().map(|name| format!("coordinate reference system {name}")).collect();
+    if unknown > 0 {
+        comments.push(format!("{unknown} extra bytes of each point were left out: nothing describes them"));
+    }
+    if format.has_waveform {
+        comments.push("the packets of waves were left out".to_owned());
+    }
     Ok(Cloud { points: all.points, attributes, double: true, comments, ..Cloud::default() })
 }
 
@@ -156,6 +168,7 @@ struct File {
     promised: u64,
     /// Of a point [B].
     size: u64,
+    extra: Vec<ExtraColumn>,
 }
 
 impl File {
@@ -199,11 +212,14 @@ struct PointRange<'a> {
     at_once: u64,
 }
 
+/// A name and its numbers.
+type NamedColumn = (Cow<'static, str>, Values);
+
 /// Points and their attributes.
 #[derive(Default)]
 struct Rows {
     points: Vec<Vec3>,
-    columns: Vec<(&'static str, Values)>,
+    columns: Vec<NamedColumn>,
 }
 
 impl Rows {
@@ -238,13 +254,13 @@ impl PointRange<'_> {
             }
             let points =
                 chunk.x().zip(chunk.y()).zip(chunk.z()).map(|((x, y), z)| Vec3::new(x, y, z)).collect();
-            rows.append(Rows { points, columns: columns_of(&chunk) });
+            rows.append(Rows { points, columns: columns_of(&chunk, &self.file.extra) });
         }
     }
 }
 
 /// The attributes that this point format has.
-fn columns_of(chunk: &PointData) -> Vec<(&'static str, Values)> {
+fn columns_of(chunk: &PointData, extra: &[ExtraColumn]) -> Vec<NamedColumn> {
     let mut columns = vec![
         ("intensity", wide(chunk.intensity())),
         ("return_number", Values::U8(chunk.return_number().collect())),
@@ -267,7 +283,9 @@ fn columns_of(chunk: &PointData) -> Vec<(&'static str, Values)> {
     if let Some(nir) = chunk.nir() {
         columns.push(("nir", wide(nir)));
     }
-    columns
+    let extra =
+        extra.iter().map(|c| (c.name.clone().into(), c.values(chunk.raw_bytes(), chunk.record_len())));
+    columns.into_iter().map(|(name, values)| (name.into(), values)).chain(extra).collect()
 }
 
 /// The flags of each point, as the formats 6 and above have them in a byte: 1 synthetic, 2 key point, 4 withheld, 8 overlap, 16 and 32 the channel of
@@ -288,7 +306,7 @@ fn wide(numbers: impl Iterator<Item = u16>) -> Values {
 }
 
 /// Adds the rows of one chunk; every chunk of a file has the same columns.
-fn append(all: &mut Vec<(&'static str, Values)>, chunk: Vec<(&'static str, Values)>) {
+fn append(all: &mut Vec<NamedColumn>, chunk: Vec<NamedColumn>) {
     if all.is_empty() {
         *all = chunk;
         return;
@@ -296,6 +314,9 @@ fn append(all: &mut Vec<(&'static str, Values)>, chunk: Vec<(&'static str, Value
     for ((_, column), (_, rows)) in all.iter_mut().zip(chunk) {
         match (column, rows) {
             (Values::U8(a), Values::U8(b)) => a.extend(b),
+            (Values::I8(a), Values::I8(b)) => a.extend(b),
+            (Values::I16(a), Values::I16(b)) => a.extend(b),
+            (Values::I32(a), Values::I32(b)) => a.extend(b),
             (Values::U16(a), Values::U16(b)) => a.extend(b),
             (Values::U32(a), Values::U32(b)) => a.extend(b),
             (Values::F32(a), Values::F32(b)) => a.extend(b),
@@ -316,7 +337,7 @@ mod tests {
         let chunks = laz::before_the_points(&bytes, &header).unwrap();
         let (promised, size) = (header.number_of_points(), u64::from(header.point_format().len()));
         let starts = shares(&chunks, promised, 3);
-        (File { bytes: Bytes(Arc::new(bytes)), promised, size }, starts)
+        (File { bytes: Bytes(Arc::new(bytes)), promised, size, extra: Vec::new() }, starts)
     }
 
     #[test]
