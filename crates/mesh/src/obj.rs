@@ -89,7 +89,8 @@ impl Obj {
     fn face<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<(), String> {
         let (mut count, mut first) = (0, None);
         for word in words {
-            let (index, form) = corner(word).ok_or(format!("'{word}' is not the number of a vertex"))?;
+            let (index, form) =
+                corner(word).ok_or_else(|| format!("'{word}' is not the number of a vertex"))?;
             if *first.get_or_insert(form) != form {
                 return Err("its corners have different numbers of indices: it is cut off".to_owned());
             }
@@ -116,10 +117,9 @@ impl Obj {
             start = end;
             let cut = match corners.iter().find(|&&v| v as usize >= there) {
                 Some(v) => Err(format!("vertex {} of {there} is not there", u64::from(*v) + 1)),
-                None => polygon::triangles(corners, &self.vertices),
+                None => polygon::cut(corners, &self.vertices, &mut triangles),
             };
-            let place = |what| MeshFileError::Obj(format!("line {line}: face {face}: {what}"));
-            triangles.extend(cut.map_err(place)?);
+            cut.map_err(|what| MeshFileError::Obj(format!("line {line}: face {face}: {what}")))?;
         }
         Ok(triangles)
     }

@@ -16,7 +16,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, MeshFileError> {
     let is_corners = |l: &&ListColumn| l.name == "vertex_indices" || l.name == "vertex_index";
     let corners = ply.element("face").and_then(|f| f.lists.iter().find(is_corners));
     let corners = corners.ok_or(MeshFileError::NoFaces)?;
-    let mut faces = Vec::with_capacity(corners.ends.len());
+    let (mut faces, mut numbers) = (Vec::with_capacity(corners.ends.len()), Vec::new());
     for face in 0..corners.ends.len() {
         let row = corners.row(face);
         if row.len() < 3 {
@@ -31,9 +31,11 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, MeshFileError> {
             let what = format!("vertex {v} of {} is not there", vertices.len());
             Err(MeshFileError::Face { face, what })
         };
-        let numbers = row.map(corner).collect::<Result<Vec<_>, _>>()?;
-        let cut = polygon::triangles(&numbers, &vertices);
-        faces.extend(cut.map_err(|what| MeshFileError::Face { face, what })?);
+        numbers.clear();
+        for i in row {
+            numbers.push(corner(i)?);
+        }
+        polygon::cut(&numbers, &vertices, &mut faces).map_err(|what| MeshFileError::Face { face, what })?;
     }
     Ok(TriMesh::new(vertices, faces)?.into())
 }

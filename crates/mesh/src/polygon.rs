@@ -14,17 +14,22 @@ const MOST_CORNERS: usize = 4096;
 /// A turn this far to the right, as the sine of its angle, is straight [–]: coordinates of 4 bytes are not exact.
 const STRAIGHT: f64 = 1e-6;
 
-/// The triangles of a face with these corners, at least three.
+/// Adds the triangles of a face with these corners, at least three.
 ///
 /// # Errors
 /// Why it cannot be cut.
-pub(crate) fn triangles(face: &[u32], vertices: &[Vec3]) -> Result<Vec<[u32; 3]>, String> {
+pub(crate) fn cut(face: &[u32], vertices: &[Vec3], into: &mut Vec<[u32; 3]>) -> Result<(), String> {
+    if let &[a, b, c] = face {
+        into.push([a, b, c]);
+        return Ok(());
+    }
     let at = |v: &u32| vertices.get(*v as usize).copied().unwrap_or_default();
     let corners: Vec<Vec3> = face.iter().map(at).collect();
-    let finite = corners.iter().all(|c| c.iter().all(|x| x.is_finite()));
     // What is not finite is refused with its vertex, once all faces are there.
-    if face.len() == 3 || !finite || is_convex(&corners) {
-        return Ok((2..face.len()).map(|i| [face[0], face[i - 1], face[i]]).collect());
+    let finite = corners.iter().all(|c| c.iter().all(|x| x.is_finite()));
+    if !finite || is_convex(&corners) {
+        into.extend((2..face.len()).map(|i| [face[0], face[i - 1], face[i]]));
+        return Ok(());
     }
     let cure = "triangulate it in the program that wrote it";
     if face.len() > MOST_CORNERS {
@@ -46,8 +51,10 @@ pub(crate) fn triangles(face: &[u32], vertices: &[Vec3]) -> Result<Vec<[u32; 3]>
         let corner = |k: usize| (k + first) % face.len() + 1;
         return Err(format!("its edges behind corners {} and {} cross: {cure}", corner(i), corner(j)));
     }
-    let cut = ears(&flat).ok_or(format!("its {} corners enclose no single area: {cure}", face.len()))?;
-    Ok(cut.into_iter().map(|three| three.map(|k| face[(k + first) % face.len()])).collect())
+    let ears =
+        ears(&flat).ok_or_else(|| format!("its {} corners enclose no single area: {cure}", face.len()))?;
+    into.extend(ears.into_iter().map(|three| three.map(|k| face[(k + first) % face.len()])));
+    Ok(())
 }
 
 /// Newell's normal: twice the area of the face long.
