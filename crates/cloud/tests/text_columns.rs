@@ -92,7 +92,9 @@ fn other_numbers_of_names_than_columns_are_refused() {
 }
 
 #[test]
-fn utf_16_is_named() {
+fn utf_16_and_ptx_are_named() {
+    let ptx = "20\n20\n10 20 1.5\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 1.5 1\n1 2 3 0.5\n";
+    assert!(refused(ptx).contains("line 2: a second whole number begins PTX"), "{}", refused(ptx));
     let bytes: Vec<u8> = "\u{feff}1 2 3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
     let message = from_bytes(bytes).expect_err("two bytes a letter").to_string();
     assert!(message.contains("UTF-16") && message.contains("iconv"), "{message}");

@@ -204,6 +204,10 @@ impl Rows {
             }
             width += 1;
         }
+        if width == 1 && self.points.is_empty() && self.promised.is_some() {
+            let what = "a second whole number begins PTX, a grid of a scanner, which is not read: export PTS, E57 or PLY";
+            return Err(error(number, what, line));
+        }
         if width < 3 {
             return Err(error(number, format!("{width} numbers where a point has at least x y z"), line));
         }
