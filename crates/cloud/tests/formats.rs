@@ -47,7 +47,7 @@ fn ply_keeps_every_property_in_its_place() {
 }
 
 #[test]
-fn ply_meshes_come_back_and_polygons_become_fans() {
+fn ply_meshes_come_back_and_squares_become_fans() {
     let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
                 element face 1\nproperty list uchar int vertex_indices\nend_header\n\
                 0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
@@ -138,6 +138,35 @@ fn e57_bytes() -> Vec<u8> {
     file.into_inner()
 }
 
+/// What is not read is named.
+#[test]
+fn e57_properties_that_are_left_out_are_named() {
+    use e57::{Record, RecordDataType, RecordName, RecordValue as Value};
+    let mut file = Cursor::new(Vec::new());
+    let mut writer = e57::E57Writer::new(&mut file, "file").unwrap();
+    writer
+        .register_extension(e57::Extension::new("nor", "http://www.libe57.org/E57_NOR_surface_normals.txt"))
+        .unwrap();
+    let normal = RecordName::Unknown { namespace: "nor".to_owned(), name: "normalX".to_owned() };
+    let prototype = vec![
+        Record::CARTESIAN_X_F64,
+        Record::CARTESIAN_Y_F64,
+        Record::CARTESIAN_Z_F64,
+        Record { name: normal, data_type: RecordDataType::F32 },
+        Record { name: RecordName::TimeStamp, data_type: RecordDataType::F64 },
+    ];
+    let mut points = writer.add_pointcloud("scan", prototype).unwrap();
+    let of = [1.0, 2.0, 3.0].map(Value::Double).into_iter();
+    points.add_point(of.chain([Value::Single(1.0), Value::Double(7.0)]).collect()).unwrap();
+    points.finalize().unwrap();
+    writer.finalize().unwrap();
+    drop(writer);
+    let cloud = read(file.into_inner());
+    assert_eq!(cloud.points, [Vec3::new(1.0, 2.0, 3.0)]);
+    assert_eq!(cloud.comments, ["properties of the scans that were left out: nor:normalX timeStamp"]);
+    assert!(read(e57_bytes()).comments.is_empty());
+}
+
 #[test]
 fn e57_with_two_scans_and_points_without_an_echo() {
     let bytes = e57_bytes();
@@ -187,6 +216,149 @@ fn pcd_as_text_and_binary() {
         assert!(refused(&bytes[..bytes.len() - 6]).starts_with("PCD"));
     }
     assert!(refused(text.replace(" x y z ", " a y z ")).contains("no fields x, y, z"));
+}
+
+/// As ROS and PCL write it: bytes that only fill a point up, several values of a name, a remark before the head.
+#[test]
+fn pcd_with_padding_and_several_values() {
+    let head = |data: &str| {
+        format!(
+            "# exported\nVERSION 0.7\nFIELDS _ x y z _ hist ring _\nSIZE 4 4 4 4 1 4 2 1\nTYPE F F F F U F U U\n\
+             COUNT 1 1 1 1 4 2 1 10\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA {data}\n"
+        )
+    };
+    let mut binary = head("binary").into_bytes();
+    for k in [0u8, 1] {
+        [9.0, 1.0, 2.0, 3.0].iter().for_each(|c: &f32| binary.extend((c + f32::from(k)).to_le_bytes()));
+        binary.extend([255; 4]);
+        [5.0, 6.0].iter().for_each(|c: &f32| binary.extend((c + f32::from(k)).to_le_bytes()));
+        binary.extend([7 + k, 0]);
+        binary.extend([255; 10]);
+    }
+    let blank = "0 ".repeat(10);
+    let text = head("ascii") + &format!("9 1 2 3 0 0 0 0 5 6 7 {blank}\n10 2 3 4 0 0 0 0 6 7 8 {blank}\n");
+    for bytes in [&binary, text.as_bytes()] {
+        let cloud = read(bytes);
+        assert_eq!(cloud.points, [Vec3::new(1.0, 2.0, 3.0), Vec3::new(2.0, 3.0, 4.0)]);
+        let names: Vec<&str> = cloud.attributes.columns().iter().map(|c| c.name.as_str()).collect();
+        assert_eq!(names, ["hist_0", "hist_1", "ring"]);
+        assert_eq!((column(&cloud, "hist_1"), column(&cloud, "ring")), (vec![6.0, 7.0], vec![7.0, 8.0]));
+    }
+    let more = [&binary[..], &binary[binary.len() - 42..]].concat();
+    for told in [refused(more), refused(text.replace("POINTS 2", "POINTS 1"))] {
+        assert!(told.contains("points, and there are") && told.contains("correct POINTS"), "{told}");
+    }
+}
+
+/// A header that counts too few points loses the others.
+#[test]
+fn las_with_more_points_than_its_header_says_is_refused() {
+    for told in [200u32, 0] {
+        let mut bytes = las_bytes(false);
+        bytes[107..111].copy_from_slice(&told.to_le_bytes());
+        let message = refused(bytes);
+        assert!(message.contains(&format!("promises {told} points, and there are 300")), "{message}");
+        assert!(message.contains("repair_counters"), "{message}");
+    }
+    let behind = [&las_bytes(false)[..], b"a remark"].concat();
+    assert_eq!(read(behind).points.len(), 300, "what follows is not a point");
+}
+
+/// Extra bytes are columns, in LAS and LAZ.
+#[test]
+fn las_extra_bytes_are_columns() {
+    let description = |kind: u8, options: u8, name: &str, scale: f64, offset: f64| {
+        let mut bytes = vec![0; 192];
+        (bytes[2], bytes[3]) = (kind, options);
+        bytes[4..4 + name.len()].copy_from_slice(name.as_bytes());
+        bytes[112..120].copy_from_slice(&scale.to_le_bytes());
+        bytes[136..144].copy_from_slice(&offset.to_le_bytes());
+        bytes
+    };
+    let described = [
+        description(3, 0, "Amplitude", 0.0, 0.0),
+        description(6, 24, "Deviation (mm)", 0.5, 100.0),
+        description(2, 0, "intensity", 0.0, 0.0),
+        description(0, 2, "reserve", 0.0, 0.0),
+        description(22, 0, "side", 0.0, 0.0),
+    ];
+    for compressed in [false, true] {
+        let mut builder = las::Builder::from((1, 4));
+        builder.point_format = las::point::Format::new(1).unwrap();
+        builder.point_format.is_compressed = compressed;
+        builder.point_format.extra_bytes = 13;
+        builder.vlrs.push(las::Vlr {
+            user_id: "LASF_Spec".to_owned(),
+            record_id: 4,
+            description: String::new(),
+            data: described.concat(),
+        });
+        let mut writer = las::Writer::new(Cursor::new(Vec::new()), builder.into_header().unwrap()).unwrap();
+        for k in 0..300u16 {
+            let mut extra_bytes =
+                [&k.to_le_bytes()[..], &(-i32::from(k)).to_le_bytes(), &[0xfe, 9, 9]].concat();
+            extra_bytes.extend([1, 2, 255, 77]);
+            let point =
+                las::Point { x: f64::from(k), gps_time: Some(0.0), extra_bytes, ..las::Point::default() };
+            writer.write_point(point).unwrap();
+        }
+        let cloud = read(writer.into_inner().unwrap().into_inner());
+        assert_eq!(cloud.attributes.get("Amplitude"), Some(&Values::U32((0..300).collect())));
+        assert_eq!(column(&cloud, "Deviation_(mm)")[299], 100.0 - 0.5 * 299.0);
+        assert_eq!(cloud.attributes.get("extra_intensity"), Some(&Values::I8(vec![-2; 300])));
+        assert_eq!([0, 1, 2].map(|k| column(&cloud, &format!("side_{k}"))[7]), [1.0, 2.0, -1.0]);
+        assert_eq!(cloud.comments, ["3 extra bytes of each point were left out: nothing describes them"]);
+    }
+}
+
+/// Degrees are not lengths.
+#[test]
+fn las_in_degrees_is_refused() {
+    let with = |text: &str| {
+        let mut builder = las::Builder::from((1, 4));
+        builder.point_format = las::point::Format::new(6).unwrap();
+        builder.vlrs.push(las::Vlr {
+            user_id: "LASF_Projection".to_owned(),
+            record_id: 2112,
+            description: String::new(),
+            data: text.as_bytes().to_vec(),
+        });
+        builder.has_wkt_crs = true;
+        let writer = las::Writer::new(Cursor::new(Vec::new()), builder.into_header().unwrap());
+        writer.unwrap().into_inner().unwrap().into_inner()
+    };
+    let degrees = "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\"],UNIT[\"degree\",0.0174532925199433]]";
+    let message = refused(with(degrees));
+    assert!(message.contains("degrees") && message.contains("reprojection"), "{message}");
+    let metres = format!("PROJCS[\"UTM\",{degrees},UNIT[\"metre\",1]]");
+    assert!(read(with(&metres)).comments[0].contains("PROJCS"));
+}
+
+/// A line end behind binary data, and capitals.
+#[test]
+fn ply_as_other_programs_write_it() {
+    let head = |axes: [&str; 3]| {
+        let properties: String = axes.iter().map(|a| format!("property float {a}\n")).collect();
+        format!(
+            "ply\nformat binary_little_endian 1.0\nelement vertex 2\n{properties}property uchar k\nend_header\n"
+        )
+    };
+    let rows = [1f32, 2.0, 3.0, 4.0, 5.0, 6.0].map(f32::to_le_bytes);
+    let rows = [&rows[..3].concat()[..], &[7], &rows[3..].concat(), &[8]].concat();
+    for axes in [["x", "y", "z"], ["X", "Y", "Z"]] {
+        for end in ["", "\n", "\r\n"] {
+            let bytes = [head(axes).as_bytes(), &rows, end.as_bytes()].concat();
+            for cloud in [read(&bytes), cloud::read(bytes.as_slice()).unwrap()] {
+                assert_eq!(cloud.points, [Vec3::new(1.0, 2.0, 3.0), Vec3::new(4.0, 5.0, 6.0)]);
+                assert_eq!(cloud.attributes.columns().len(), 1);
+            }
+        }
+        for end in ["\n\n", " ", "\r\n\n", "12345678901234567"] {
+            let bytes = [head(axes).as_bytes(), &rows, end.as_bytes()].concat();
+            assert!(refused(&bytes).contains(&format!("{} bytes follow", end.len())));
+            assert!(cloud::read(bytes.as_slice()).is_err(), "{end:?}");
+        }
+    }
 }
 
 #[test]
@@ -310,6 +482,22 @@ fn a_drawing_is_a_cloud_of_its_corners() {
         points.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.y.total_cmp(&b.y)).then(a.x.total_cmp(&b.x)));
         assert_eq!(points, corners.map(geom::Vec3::from));
     }
+    let remarks = cloud::read(&b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\nl 1 4\n"[..]).unwrap();
+    assert_eq!(
+        (remarks.points.len(), &remarks.comments[..]),
+        (
+            3,
+            &[
+                "the corners of 1 triangles".to_owned(),
+                "1 lines (l) were left out: they are no surface".to_owned()
+            ][..]
+        )
+    );
+    let vertices = cloud::read(&b"v 0 0 0\nv 1 0 0\nv 0 1 0\n"[..]).unwrap();
+    assert_eq!(
+        (vertices.points.len(), &vertices.comments[0][..]),
+        (3, "the vertices of a drawing without faces")
+    );
     let told = cloud::read(&b"ISO-10303-21;\nHEADER;\n"[..]).unwrap_err().to_string();
     assert!(told.contains("this is STEP") && told.contains("export STL"), "{told}");
 }

@@ -1,9 +1,9 @@
 //! Triangle meshes from files, detected by their content, never by the file name.
 //!
 //! ```text
-//! PLY            ASCII and binary; faces with more than three corners are cut into fans
+//! PLY            ASCII and binary; faces with more than three corners are cut into triangles
 //! STL            ASCII and binary, all solids of a file; vertices at equal places are made one
-//! OBJ            `v` and `f` lines; groups and objects become one mesh
+//! OBJ            `v` and `f` lines, faces cut as in PLY; groups and objects become one mesh
 //! triangles      text, nine numbers a line: three corners [m]; a first line of words is passed over
 //! ```
 //!
@@ -11,10 +11,11 @@
 
 mod obj;
 mod ply;
+mod polygon;
 mod stl;
 mod triangles;
 
-pub use ply::write_ply;
+pub use ply::{axes as ply_axes, write_ply};
 
 use geom::mesh::{MeshError, TriMesh};
 use std::path::Path;
@@ -63,7 +64,22 @@ struct Format {
     name: &'static str,
     /// Whether these are its first bytes.
     matches: fn(&[u8]) -> bool,
-    read: fn(&[u8]) -> Result<TriMesh, MeshFileError>,
+    read: fn(&[u8]) -> Result<Contents, MeshFileError>,
+}
+
+/// What a file of a mesh holds.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Contents {
+    /// Its surface; lengths as they are in the file [m]. It may have vertices and no face.
+    pub mesh: TriMesh,
+    /// What was left out, one sentence each.
+    pub notes: Vec<String>,
+}
+
+impl From<TriMesh> for Contents {
+    fn from(mesh: TriMesh) -> Contents {
+        Contents { mesh, notes: Vec::new() }
+    }
 }
 
 /// Every format that a mesh is read from; what has no mark of its own comes last.
@@ -79,6 +95,18 @@ const FORMATS: [Format; 4] = [
 /// # Errors
 /// Content that is not a mesh, or is truncated, with its place; a mesh without a face.
 pub fn from_bytes(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
+    let mesh = contents(bytes)?.mesh;
+    if mesh.faces.is_empty() {
+        return Err(MeshError::Empty.into());
+    }
+    Ok(mesh)
+}
+
+/// Reads what a file in memory holds, also if it is vertices without a face.
+///
+/// # Errors
+/// As [`from_bytes`].
+pub fn contents(bytes: &[u8]) -> Result<Contents, MeshFileError> {
     if bytes.is_empty() {
         return Err(MeshFileError::Empty);
     }
@@ -90,11 +118,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
             bytes.iter().take(12).flat_map(|b| std::ascii::escape_default(*b)).map(char::from).collect();
         return Err(MeshFileError::Unknown { start: format!("'{start}'") });
     };
-    let mesh = (format.read)(bytes)?;
-    if mesh.faces.is_empty() {
-        return Err(MeshError::Empty.into());
-    }
-    Ok(mesh)
+    (format.read)(bytes)
 }
 
 /// Whether these bytes begin a file of STEP, whose surfaces are not triangles.

@@ -1,6 +1,6 @@
 //! PLY: the elements `vertex` and `face`.
 
-use crate::MeshFileError;
+use crate::{Contents, MeshFileError, polygon};
 use geom::{Vec3, mesh::TriMesh};
 use std::io::Write;
 use stream::ply::{self, Element, Encoding, ListColumn, NumberType, Ply, PlyError};
@@ -10,13 +10,13 @@ pub(crate) fn matches(bytes: &[u8]) -> bool {
     bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r")
 }
 
-pub(crate) fn read(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Contents, MeshFileError> {
     let ply = ply::parse(bytes).map_err(MeshFileError::Ply)?;
     let vertices = vertices(&ply)?;
     let is_corners = |l: &&ListColumn| l.name == "vertex_indices" || l.name == "vertex_index";
     let corners = ply.element("face").and_then(|f| f.lists.iter().find(is_corners));
     let corners = corners.ok_or(MeshFileError::NoFaces)?;
-    let mut faces = Vec::with_capacity(corners.ends.len());
+    let (mut faces, mut numbers) = (Vec::with_capacity(corners.ends.len()), Vec::new());
     for face in 0..corners.ends.len() {
         let row = corners.row(face);
         if row.len() < 3 {
@@ -31,18 +31,30 @@ pub(crate) fn read(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
             let what = format!("vertex {v} of {} is not there", vertices.len());
             Err(MeshFileError::Face { face, what })
         };
-        let first = corner(row.start)?;
-        for i in row.start + 1..row.end - 1 {
-            faces.push([first, corner(i)?, corner(i + 1)?]);
+        numbers.clear();
+        for i in row {
+            numbers.push(corner(i)?);
         }
+        polygon::cut(&numbers, &vertices, &mut faces).map_err(|what| MeshFileError::Face { face, what })?;
     }
-    Ok(TriMesh::new(vertices, faces)?)
+    Ok(TriMesh::new(vertices, faces)?.into())
+}
+
+/// The names of x, y and z: capitals only where no property has a small letter.
+pub fn axes(is_there: impl Fn(&str) -> bool) -> [&'static str; 3] {
+    let (small, capital) = (["x", "y", "z"], ["X", "Y", "Z"]);
+    if !small.iter().any(|axis| is_there(axis)) && capital.iter().all(|axis| is_there(axis)) {
+        capital
+    } else {
+        small
+    }
 }
 
 fn vertices(ply: &Ply) -> Result<Vec<Vec3>, MeshFileError> {
     let Some(vertex) = ply.element("vertex") else { return Err(MeshFileError::NoPosition("x")) };
     let column = |name| vertex.table.get(name).ok_or(MeshFileError::NoPosition(name));
-    let (x, y, z) = (column("x")?, column("y")?, column("z")?);
+    let [x, y, z] = axes(|name| vertex.table.get(name).is_some());
+    let (x, y, z) = (column(x)?, column(y)?, column(z)?);
     Ok((0..vertex.table.rows()).map(|i| Vec3::new(x.get(i), y.get(i), z.get(i))).collect())
 }
 

@@ -8,7 +8,7 @@
 //! A file whose length is what its count promises is binary, whatever it begins with. Normals are not read: many programs write none, or wrong ones. Corners at
 //! equal places are one vertex. 3D Systems (1989), Stereolithography Interface Specification.
 
-use crate::{MeshFileError, lines};
+use crate::{Contents, MeshFileError, lines};
 use geom::{Vec3, mesh::TriMesh};
 use std::collections::HashMap;
 
@@ -61,14 +61,14 @@ fn is_whole(bytes: &[u8], promised: u64) -> bool {
     (bytes.len() - HEAD) as u64 == promised * TRIANGLE as u64
 }
 
-pub(crate) fn read(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Contents, MeshFileError> {
     let mut solid = Solid::default();
     if is_ascii(bytes) {
         solid.read_text(bytes)?
     } else {
         solid.read_binary(bytes)?
     }
-    Ok(TriMesh::new(solid.vertices, solid.faces)?)
+    Ok(TriMesh::new(solid.vertices, solid.faces)?.into())
 }
 
 /// What has been read.

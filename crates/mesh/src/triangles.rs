@@ -1,6 +1,6 @@
 //! Text with one triangle per line: nine numbers, the corners [m]. Benchmarks of particle codes use it for walls.
 
-use crate::{MeshFileError, lines};
+use crate::{Contents, MeshFileError, lines};
 use geom::{Vec3, mesh::TriMesh};
 
 pub(crate) fn matches(bytes: &[u8]) -> bool {
@@ -8,7 +8,7 @@ pub(crate) fn matches(bytes: &[u8]) -> bool {
     lines(bytes).filter(|(_, line)| !line.trim().is_empty()).take(2).any(|(_, line)| corners(&line).is_some())
 }
 
-pub(crate) fn read(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Contents, MeshFileError> {
     let mut vertices: Vec<Vec3> = Vec::new();
     for (line, text) in lines(bytes) {
         if text.trim().is_empty() || text.trim_start().starts_with('#') {
@@ -24,7 +24,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
         }
     }
     let faces = (0..vertices.len() as u32 / 3).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
-    Ok(TriMesh::new(vertices, faces)?)
+    Ok(TriMesh::new(vertices, faces)?.into())
 }
 
 /// The corners of a line of nine finite numbers and nothing else.

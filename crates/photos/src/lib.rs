@@ -29,6 +29,7 @@ pub mod coherence;
 pub mod contour;
 pub mod field;
 pub mod hull;
+mod jpeg_end;
 pub mod mask;
 pub mod photograph;
 pub mod poses;

@@ -170,6 +170,10 @@ fn decode(bytes: &[u8]) -> Result<DynamicImage, PhotographError> {
     };
     let name = if format == ImageFormat::Jpeg { "JPEG" } else { "PNG" };
     let broken = |e: image::ImageError| PhotographError::Broken { format: name, reason: e.to_string() };
+    if format == ImageFormat::Jpeg && !crate::jpeg_end::has_end(bytes) {
+        let reason = format!("it ends after {} bytes, before the picture does: it is cut off", bytes.len());
+        return Err(PhotographError::Broken { format: name, reason });
+    }
     let mut limits = Limits::default();
     (limits.max_image_width, limits.max_image_height) = (Some(LONGEST), Some(LONGEST));
     limits.max_alloc = Some(BYTES);
@@ -211,5 +215,20 @@ mod tests {
         let whole = png(4, 4, &[7; 16]).unwrap();
         let words = Photograph::read(&whole[..40]).unwrap_err().to_string();
         assert!(words.contains("cannot read the PNG"), "{words}");
+    }
+
+    /// A decoder fills what is missing with grey.
+    #[test]
+    fn a_jpeg_that_is_cut_off_is_refused() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../sample-data/head/photographs/00001.jpg");
+        let whole = std::fs::read(path).unwrap();
+        let read = Photograph::read(&whole).unwrap();
+        let appended = [&whole[..], b"a small picture"].concat();
+        assert_eq!(Photograph::read(&appended).unwrap(), read);
+        for share in [3, 20, 60, 80, 99] {
+            let cut = &whole[..whole.len() * share / 100];
+            let words = Photograph::read(cut).unwrap_err().to_string();
+            assert!(words.contains("cannot read the JPEG") && words.contains("again"), "{share} %: {words}");
+        }
     }
 }

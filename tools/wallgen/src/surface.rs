@@ -103,6 +103,15 @@ fn warn(report: &DrawnReport, radius: f64) {
             Shown(2.0 * radius)
         ));
     }
+    if report.undecided_faces > 0 {
+        cli::warn(&format!(
+            "{} faces of open parts are drawn on both sides: the flow is taken on the side of the first of the two; give --flow-at x,y,z if \
+             it is on the other one",
+            report.undecided_faces
+        ));
+    } else if report.doubled_faces > 0 {
+        cli::warn(&format!("{} faces are drawn more than once: each is used once", report.doubled_faces));
+    }
     if report.one_sided_edges > 0 {
         cli::warn(&format!(
             "at {} edges the faces have no common side (the drawing is one-sided or torn there): check on which side the spheres are",

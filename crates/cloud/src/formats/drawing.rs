@@ -1,4 +1,4 @@
-//! Drawings as clouds: the corners of the triangles of STL and OBJ, each once.
+//! Drawings as clouds: the corners of the triangles of STL and OBJ, each once; the vertices of an OBJ without faces.
 
 use super::ReadError;
 use crate::Cloud;
@@ -12,8 +12,16 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
-    let mesh = mesh::from_bytes(&bytes)?.welded();
+    let mesh::Contents { mesh, notes } = mesh::contents(&bytes)?;
+    let mesh = mesh.welded();
+    if mesh.vertices.is_empty() {
+        return Err(mesh::MeshFileError::from(geom::mesh::MeshError::Empty).into());
+    }
     let attributes = Table::with_rows(mesh.vertices.len());
-    let comments = vec![format!("the corners of {} triangles", mesh.faces.len())];
+    let comments = match mesh.faces.len() {
+        0 => vec!["the vertices of a drawing without faces".to_owned()],
+        faces => vec![format!("the corners of {faces} triangles")],
+    };
+    let comments = comments.into_iter().chain(notes).collect();
     Ok(Cloud { points: mesh.vertices, attributes, double: true, comments, ..Cloud::default() })
 }

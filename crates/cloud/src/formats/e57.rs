@@ -2,8 +2,9 @@
 
 use super::{ReadError, catch, e57_claims as claims};
 use crate::Cloud;
-use e57::{CartesianCoordinate, E57Reader, Point, PointCloud};
+use e57::{CartesianCoordinate, E57Reader, Point, PointCloud, Record, RecordName};
 use geom::Vec3;
+use std::collections::BTreeSet;
 use std::io::Cursor;
 use stream::{Table, Values};
 
@@ -91,7 +92,8 @@ impl Columns {
         if scans.len() > 1 {
             push("scan", Values::U32(self.scan.iter().map(|&scan| scan.into()).collect()))?;
         }
-        let mut cloud = Cloud { points: self.points, attributes, double: true, ..Cloud::default() };
+        let comments = left_out(scans).into_iter().collect();
+        let mut cloud = Cloud { points: self.points, attributes, double: true, comments, ..Cloud::default() };
         // A scanner stands at the origin of its scan; a pose that moves nothing is stated for merged scans as well.
         for t in scans.iter().filter_map(|scan| scan.transform.as_ref()).map(|pose| &pose.translation) {
             let eye = Vec3::new(t.x, t.y, t.z);
@@ -101,6 +103,26 @@ impl Columns {
         }
         Ok(cloud)
     }
+}
+
+/// Longest list of properties that a comment holds [B].
+const LONGEST: usize = 1000;
+
+/// A comment that names the properties of the scans that are not read.
+fn left_out(scans: &[PointCloud]) -> Option<String> {
+    let name = |record: &Record| match &record.name {
+        RecordName::ReturnCount => Some("returnCount".to_owned()),
+        RecordName::ReturnIndex => Some("returnIndex".to_owned()),
+        RecordName::TimeStamp => Some("timeStamp".to_owned()),
+        RecordName::Unknown { namespace, name } => Some(format!("{namespace}:{name}")),
+        _ => None,
+    };
+    let names: BTreeSet<String> =
+        scans.iter().flat_map(|scan| scan.prototype.iter().filter_map(name)).collect();
+    let names = names.into_iter().collect::<Vec<_>>().join(" ");
+    let plain = |c: char| if c.is_ascii_graphic() || c == ' ' { c } else { '_' };
+    let names: String = names.chars().take(LONGEST).map(plain).collect();
+    (!names.is_empty()).then(|| format!("properties of the scans that were left out: {names}"))
 }
 
 /// Colours in the smallest type that holds them all.

@@ -1,10 +1,12 @@
 //! LAS and LAZ, by the `las` crate.
 
+use super::las_extra::{self, ExtraColumn};
 use super::laz::{self, Bytes, Chunk, STACK, Shallow};
 use super::{ReadError, catch};
 use crate::Cloud;
 use geom::{Shown, Vec3};
 use las::{Header, LazParallelism, PointData, Reader, ReaderOptions, Transform};
+use std::borrow::Cow;
 use std::io::Cursor;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -37,7 +39,7 @@ fn broken(what: impl ToString, point: u64) -> ReadError {
 fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     laz::before_the_header(&bytes).map_err(|e| broken(e, 0))?;
     let header = Header::new(Cursor::new(&bytes)).map_err(|e| broken(e, 0))?;
-    sound(&header).map_err(|e| broken(e, 0))?;
+    sound(&header).and_then(|()| projected(&header)).map_err(|e| broken(e, 0))?;
     let chunks = laz::before_the_points(&bytes, &header).map_err(|e| broken(e, 0))?;
     let length = bytes.len() as u64;
     let (promised, format) = (header.number_of_points(), header.point_format());
@@ -49,8 +51,21 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
             0,
         ));
     }
+    if !format.is_compressed {
+        let there = laz::records(&bytes, size);
+        if there > promised {
+            return Err(broken(
+                format!(
+                    "the header promises {promised} points, and there are {there}: correct the header (LAStools: lasinfo -i FILE \
+                     -repair_counters) or export it again"
+                ),
+                promised,
+            ));
+        }
+    }
     let threads = if length < SMALL { 1 } else { rayon::current_num_threads().max(1) };
-    let file = File { bytes: Bytes(Arc::new(bytes)), promised, size };
+    let (extra, unknown) = las_extra::columns(&header);
+    let file = File { bytes: Bytes(Arc::new(bytes)), promised, size, extra };
     let all = match file.read(&shares(&chunks, promised, threads as u64))? {
         Some(all) => all,
         // Read one after the other there is no question where chunks begin.
@@ -58,13 +73,26 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     };
     let mut attributes = Table::with_rows(all.points.len());
     for (name, values) in all.columns {
-        attributes.push(name, values).map_err(|source| ReadError::Table { format: "LAS/LAZ", source })?;
+        // A name that the format has already, as "intensity", stays that of the format.
+        let name = if attributes.get(&name).is_some() { format!("extra_{name}").into() } else { name };
+        attributes.push(&name, values).map_err(|source| ReadError::Table { format: "LAS/LAZ", source })?;
     }
-    let comments = reference_system(&header).into_iter().collect();
+    let system = reference_system(&header);
+    let mut comments: Vec<String> =
+        system.into_iter().map(|name| format!("coordinate reference system {name}")).collect();
+    if unknown > 0 {
+        comments.push(format!("{unknown} extra bytes of each point were left out: nothing describes them"));
+    }
+    if format.has_waveform {
+        comments.push("the packets of waves were left out".to_owned());
+    }
     Ok(Cloud { points: all.points, attributes, double: true, comments, ..Cloud::default() })
 }
 
-/// A comment that names the coordinate reference system: its EPSG code, or its well-known text.
+/// Mark of longitude and latitude in the keys of GeoTIFF.
+const GEOGRAPHIC: u16 = 2;
+
+/// The coordinate reference system: its EPSG code, or its well-known text.
 fn reference_system(header: &Header) -> Option<String> {
     let geotiff = || {
         let keys = header.get_geotiff_crs().ok()??;
@@ -78,8 +106,28 @@ fn reference_system(header: &Header) -> Option<String> {
             text.split(|c: char| c.is_whitespace() || c.is_control()).filter(|w| !w.is_empty()).collect();
         Some(words.join(" ")).filter(|text| !text.is_empty() && text.len() <= LONGEST)
     };
-    let name = text().or_else(|| geotiff().map(|code| format!("EPSG:{code}")))?;
-    Some(format!("coordinate reference system {name}"))
+    text().or_else(|| geotiff().map(|code| format!("EPSG:{code}")))
+}
+
+/// Refuses coordinates in degrees, which are no lengths.
+fn projected(header: &Header) -> Result<(), String> {
+    let text = String::from_utf8_lossy(header.get_wkt_crs_bytes().unwrap_or_default()).to_ascii_uppercase();
+    let holds = |words: &[&str]| words.iter().any(|word| text.contains(word));
+    let by_text = holds(&["GEOGCS", "GEOGCRS", "GEOGRAPHICCRS"])
+        && !holds(&["PROJCS", "PROJCRS", "PROJECTEDCRS", "GEOCCS", "LOCAL_CS", "ENGCRS"]);
+    let by_keys = || {
+        let keys = header.get_geotiff_crs().ok().flatten();
+        keys.is_some_and(|keys| keys.get_gt_model_type_geo_key_value() == Some(GEOGRAPHIC))
+    };
+    if by_text || text.is_empty() && by_keys() {
+        let name = reference_system(header).unwrap_or_default();
+        let name: String = name.chars().take(60).collect();
+        return Err(format!(
+            "the coordinates are degrees, not lengths ({name}): project them again, e.g. pdal translate IN.las OUT.las reprojection \
+             --filters.reprojection.out_srs=EPSG:25832 with the code of the place"
+        ));
+    }
+    Ok(())
 }
 
 /// Steps of coordinates that may be meant [m].
@@ -120,6 +168,7 @@ struct File {
     promised: u64,
     /// Of a point [B].
     size: u64,
+    extra: Vec<ExtraColumn>,
 }
 
 impl File {
@@ -163,11 +212,14 @@ struct PointRange<'a> {
     at_once: u64,
 }
 
+/// A name and its numbers.
+type NamedColumn = (Cow<'static, str>, Values);
+
 /// Points and their attributes.
 #[derive(Default)]
 struct Rows {
     points: Vec<Vec3>,
-    columns: Vec<(&'static str, Values)>,
+    columns: Vec<NamedColumn>,
 }
 
 impl Rows {
@@ -202,13 +254,13 @@ impl PointRange<'_> {
             }
             let points =
                 chunk.x().zip(chunk.y()).zip(chunk.z()).map(|((x, y), z)| Vec3::new(x, y, z)).collect();
-            rows.append(Rows { points, columns: columns_of(&chunk) });
+            rows.append(Rows { points, columns: columns_of(&chunk, &self.file.extra) });
         }
     }
 }
 
 /// The attributes that this point format has.
-fn columns_of(chunk: &PointData) -> Vec<(&'static str, Values)> {
+fn columns_of(chunk: &PointData, extra: &[ExtraColumn]) -> Vec<NamedColumn> {
     let mut columns = vec![
         ("intensity", wide(chunk.intensity())),
         ("return_number", Values::U8(chunk.return_number().collect())),
@@ -231,7 +283,9 @@ fn columns_of(chunk: &PointData) -> Vec<(&'static str, Values)> {
     if let Some(nir) = chunk.nir() {
         columns.push(("nir", wide(nir)));
     }
-    columns
+    let extra =
+        extra.iter().map(|c| (c.name.clone().into(), c.values(chunk.raw_bytes(), chunk.record_len())));
+    columns.into_iter().map(|(name, values)| (name.into(), values)).chain(extra).collect()
 }
 
 /// The flags of each point, as the formats 6 and above have them in a byte: 1 synthetic, 2 key point, 4 withheld, 8 overlap, 16 and 32 the channel of
@@ -252,7 +306,7 @@ fn wide(numbers: impl Iterator<Item = u16>) -> Values {
 }
 
 /// Adds the rows of one chunk; every chunk of a file has the same columns.
-fn append(all: &mut Vec<(&'static str, Values)>, chunk: Vec<(&'static str, Values)>) {
+fn append(all: &mut Vec<NamedColumn>, chunk: Vec<NamedColumn>) {
     if all.is_empty() {
         *all = chunk;
         return;
@@ -260,6 +314,9 @@ fn append(all: &mut Vec<(&'static str, Values)>, chunk: Vec<(&'static str, Value
     for ((_, column), (_, rows)) in all.iter_mut().zip(chunk) {
         match (column, rows) {
             (Values::U8(a), Values::U8(b)) => a.extend(b),
+            (Values::I8(a), Values::I8(b)) => a.extend(b),
+            (Values::I16(a), Values::I16(b)) => a.extend(b),
+            (Values::I32(a), Values::I32(b)) => a.extend(b),
             (Values::U16(a), Values::U16(b)) => a.extend(b),
             (Values::U32(a), Values::U32(b)) => a.extend(b),
             (Values::F32(a), Values::F32(b)) => a.extend(b),
@@ -280,7 +337,7 @@ mod tests {
         let chunks = laz::before_the_points(&bytes, &header).unwrap();
         let (promised, size) = (header.number_of_points(), u64::from(header.point_format().len()));
         let starts = shares(&chunks, promised, 3);
-        (File { bytes: Bytes(Arc::new(bytes)), promised, size }, starts)
+        (File { bytes: Bytes(Arc::new(bytes)), promised, size, extra: Vec::new() }, starts)
     }
 
     #[test]

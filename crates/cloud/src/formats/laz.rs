@@ -136,6 +136,17 @@ pub(super) fn before_the_header(bytes: &[u8]) -> Result<(), String> {
     }
 }
 
+/// Whole records of `size` [B] that fill a file of points that are not packed from its first one up to what follows them; 0 if they do not fill it.
+pub(super) fn records(bytes: &[u8], size: u64) -> u64 {
+    let start = number(bytes, 96, 4).unwrap_or(u64::MAX);
+    // Packets of waves from version 1.3 on, extended records from 1.4 on.
+    let minor = number(bytes, 25, 1).unwrap_or(0);
+    let behind = [(227, 3), (235, 4)].map(|(at, from)| number(bytes, at, 8).filter(|_| minor >= from));
+    let end = behind.into_iter().flatten().filter(|&at| at >= start).fold(bytes.len() as u64, u64::min);
+    let length = end.saturating_sub(start);
+    if length.is_multiple_of(size.max(1)) { length / size.max(1) } else { 0 }
+}
+
 /// Where a chunk begins, by the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Chunk {
@@ -169,6 +180,15 @@ pub(super) fn before_the_points(bytes: &[u8], header: &Header) -> Result<Vec<Chu
     source.set_position(start);
     let table = ChunkTable::read_from(&mut source, &vlr).ok();
     let table = table.as_ref().map_or(&[][..], |t| t.as_ref());
+    // The last chunk has a point at least.
+    let before_last = table.iter().rev().skip(1).fold(0u64, |sum, c| sum.saturating_add(c.point_count));
+    if table.len() > 1 && before_last >= header.number_of_points() {
+        let (promised, chunks) = (header.number_of_points(), table.len());
+        return Err(format!(
+            "the header promises {promised} points, and the {chunks} chunks of the file hold more than {before_last}: correct the header \
+             (LAStools: lasinfo -i FILE -repair_counters) or export it again"
+        ));
+    }
     let total = table.iter().fold(0u64, |sum, c| sum.saturating_add(c.byte_count));
     // Chunks of points packed one by one do not tell their length: those of the table must end where it begins.
     let mut whole = start.checked_add(8).and_then(|first| first.checked_add(total)) == table_at(bytes);
@@ -300,6 +320,23 @@ pub(super) mod tests {
 
     fn firsts(bytes: &[u8]) -> Vec<u64> {
         chunks(bytes).iter().map(|c| c.first).collect()
+    }
+
+    #[test]
+    fn more_chunks_than_the_header_has_points_for_are_refused() {
+        let mut bytes = packed(120_000);
+        let promise =
+            |bytes: &mut Vec<u8>, points: u32| bytes[107..111].copy_from_slice(&points.to_le_bytes());
+        promise(&mut bytes, 100_001);
+        assert_eq!(firsts(&bytes).len(), 3);
+        for points in [0, 50_000, 100_000] {
+            promise(&mut bytes, points);
+            let told = before_the_points(&bytes, &Header::new(Cursor::new(&bytes)).unwrap()).unwrap_err();
+            assert!(
+                told.contains(&format!("promises {points} points")) && told.contains("more than 100000"),
+                "{told}"
+            );
+        }
     }
 
     #[test]

@@ -6,10 +6,12 @@ mod drawing;
 mod e57;
 mod e57_claims;
 mod las;
+mod las_extra;
 mod laz;
 mod pcd;
 mod ply;
 mod xyz;
+mod xyz_columns;
 
 pub use ply::{read_mesh, to_ply, write_mesh, write_ply};
 
@@ -155,6 +157,9 @@ fn hint(bytes: &[u8]) -> &'static str {
         [0x1f, 0x8b, ..] => " (gzip: unpack it first, gunzip -c FILE |)",
         [0x28, 0xb5, 0x2f, 0xfd, ..] => " (zstd: unpack it first, zstd -dc FILE |)",
         [b'P', b'K', 3, 4, ..] => " (zip: unpack it first)",
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => {
+            " (UTF-16 text: save it as UTF-8, iconv -f UTF-16 -t UTF-8 FILE |)"
+        }
         [0x89, b'M', b'C', b'A', b'P', ..] => " (MCAP: walls or a run, not a cloud)",
         _ => "",
     }

@@ -3,12 +3,15 @@
 use super::{ReadError, catch};
 use crate::Cloud;
 use geom::Vec3;
-use pcd_rs::{DynReader, Field, ValueKind};
+use pcd_rs::{DynReader, Field, ValueKind, metas::FieldDef};
 use stream::{Table, Values};
 
 pub(super) fn matches(bytes: &[u8]) -> bool {
-    let head = &bytes[..bytes.len().min(1024)];
-    head.starts_with(b"# .PCD") || (head.starts_with(b"VERSION") && head.windows(6).any(|w| w == b"FIELDS"))
+    let head = &bytes[..bytes.len().min(4096)];
+    let is_comment = |line: &&[u8]| line.starts_with(b"#") || line.trim_ascii().is_empty();
+    let first = head.split(|&byte| byte == b'\n').find(|line| !is_comment(line)).unwrap_or_default();
+    let holds = |word: &[u8]| head.windows(word.len()).any(|part| part == word);
+    head.starts_with(b"# .PCD") || (first.starts_with(b"VERSION") && (holds(b"FIELDS") || holds(b"COLUMNS")))
 }
 
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
@@ -22,23 +25,41 @@ fn broken(what: impl ToString, point: Option<u64>) -> ReadError {
 /// LZF makes at most 264 bytes of 3.
 const LARGEST_RATIO: u64 = 88;
 
-/// What stands behind the header of a packed file, whose last line is that of the word DATA.
-fn packed(bytes: &[u8]) -> Option<&[u8]> {
+/// The kind of the data, and what stands behind the header, whose last line is that of the word DATA.
+fn data(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let mut rest = bytes;
     while let Some(end) = rest.iter().position(|&byte| byte == b'\n') {
         let line = rest[..end].split(|&byte| byte == b'#').next().unwrap_or_default();
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         rest = &rest[end + 1..];
         if words.next().is_some_and(|word| word.eq_ignore_ascii_case(b"DATA")) {
-            return words.next().filter(|kind| kind.eq_ignore_ascii_case(b"binary_compressed")).map(|_| rest);
+            return words.next().map(|kind| (kind, rest));
         }
     }
     None
 }
 
+/// Refuses a file that holds more points than its header promises.
+fn no_more(bytes: &[u8], promised: u64, size: u64) -> Result<(), ReadError> {
+    let there = match data(bytes) {
+        Some((b"ascii", rest)) => {
+            rest.split(|&byte| byte == b'\n').filter(|line| !line.trim_ascii().is_empty()).count() as u64
+        }
+        Some((b"binary", rest)) => rest.len() as u64 / size.max(1),
+        _ => promised,
+    };
+    if there > promised {
+        let what = format!(
+            "the header promises {promised} points, and there are {there}: correct POINTS, WIDTH and HEIGHT, or export it again"
+        );
+        return Err(broken(what, None));
+    }
+    Ok(())
+}
+
 /// Refuses packed data that are shorter than they claim, or claim to hold more than they can.
 fn unpackable(bytes: &[u8]) -> Result<(), ReadError> {
-    let Some(data) = packed(bytes) else { return Ok(()) };
+    let Some((b"binary_compressed", data)) = data(bytes) else { return Ok(()) };
     let Some((sizes, data)) = data.split_first_chunk::<8>() else { return Ok(()) };
     let [packed, whole] =
         [[0, 1, 2, 3], [4, 5, 6, 7]].map(|at| u64::from(u32::from_le_bytes(at.map(|k| sizes[k]))));
@@ -54,7 +75,12 @@ fn unpackable(bytes: &[u8]) -> Result<(), ReadError> {
 fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
     unpackable(bytes)?;
     let reader = DynReader::from_bytes(bytes).map_err(|e| broken(e, None))?;
-    let fields = reader.meta().field_defs.fields.clone();
+    let all = &reader.meta().field_defs.fields;
+    let values = all.iter().map(|f| f.count).fold(0, u64::saturating_add);
+    let size =
+        all.iter().map(|f| f.count.saturating_mul(f.kind.byte_size() as u64)).fold(0, u64::saturating_add);
+    // The reader passes over bytes that only fill a point up.
+    let fields: Vec<FieldDef> = all.iter().filter(|f| !f.is_padding()).cloned().collect();
     let axis = |name: &str| fields.iter().position(|f| f.name == name && f.count == 1);
     let (Some(x), Some(y), Some(z)) = (axis("x"), axis("y"), axis("z")) else {
         let names: Vec<&str> = fields.iter().map(|f| f.name.as_str()).collect();
@@ -63,7 +89,6 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
     let viewpoint = &reader.meta().viewpoint;
     let eye = Some(Vec3::new(viewpoint.tx, viewpoint.ty, viewpoint.tz));
     let promised = reader.meta().num_points;
-    let values = fields.iter().map(|f| f.count).fold(0, u64::saturating_add);
     if values > bytes.len() as u64 {
         return Err(broken(
             format!("{values} values per point are promised in a file of {} bytes", bytes.len()),
@@ -86,9 +111,10 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
             None,
         ));
     }
+    no_more(bytes, promised, size)?;
     let mut attributes = Table::with_rows(points.len());
     for (f, (field, column)) in fields.iter().zip(columns).enumerate() {
-        if [x, y, z].contains(&f) || field.is_padding() {
+        if [x, y, z].contains(&f) {
             continue;
         }
         for (name, values) in named(&field.name, column) {

@@ -16,8 +16,8 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     let ply = ply::parse(&bytes).map_err(ReadError::Ply)?;
     drop(bytes);
-    let has_x = |e: &Element| e.table.get("x").is_some();
-    let has_points = |e: &Element| ["x", "y", "z"].iter().all(|axis| e.table.get(axis).is_some());
+    let has_x = |e: &Element| e.table.get(axes(&e.table)[0]).is_some();
+    let has_points = |e: &Element| axes(&e.table).iter().all(|axis| e.table.get(axis).is_some());
     let mut clouds = ply.elements.iter().filter(|e| has_points(e) && e.table.rows() > 0);
     if let (Some(one), Some(other)) = (clouds.next(), clouds.next()) {
         return Err(ReadError::TwoClouds { one: one.name.clone(), other: other.name.clone() });
@@ -46,10 +46,16 @@ fn rest<R: Read>((mut bytes, mut from): (Vec<u8>, R)) -> Result<Result<Cloud, Ve
     Ok(Err(bytes))
 }
 
+/// The names of x, y and z in a table: capitals only where there is no small letter.
+fn axes(table: &Table) -> [&'static str; 3] {
+    mesh::ply_axes(|name| table.get(name).is_some())
+}
+
 /// Which properties are x, y and z; none when one is missing.
 fn positions<R>(blocks: &Blocks<R>) -> Option<[usize; 3]> {
     let at = |axis: &str| blocks.properties.iter().position(|p| p.name == axis);
-    Some([at("x")?, at("y")?, at("z")?])
+    let [x, y, z] = mesh::ply_axes(|axis| at(axis).is_some());
+    Some([at(x)?, at(y)?, at(z)?])
 }
 
 /// Points and columns, block by block.
@@ -94,14 +100,15 @@ fn extend(points: &mut Vec<Vec3>, rows: &[u8], stride: usize, axes: [(NumberType
 
 fn from_element(element: Element, mut comments: Vec<String>) -> Result<Cloud, ReadError> {
     let Element { name, table: mut attributes, lists } = element;
-    let position_column = attributes.columns().iter().position(|c| c.name == "x").unwrap_or(0);
+    let [x, y, z] = axes(&attributes);
+    let position_column = attributes.columns().iter().position(|c| c.name == x).unwrap_or(0);
     let take = |attributes: &mut Table, axis: &'static str| {
         let missing = || ReadError::HalfPosition { element: name.clone(), missing: axis };
         attributes.remove(axis).ok_or_else(missing)
     };
-    let x = take(&mut attributes, "x")?;
-    let y = take(&mut attributes, "y")?;
-    let z = take(&mut attributes, "z")?;
+    let x = take(&mut attributes, x)?;
+    let y = take(&mut attributes, y)?;
+    let z = take(&mut attributes, z)?;
     let double = [&x, &y, &z].iter().any(|v| !matches!(v, Values::F32(_)));
     comments.extend(lists.iter().map(|l| format!("the list property {} was left out", l.name)));
     Ok(Cloud { points: zip(&x, &y, &z), attributes, double, position_column, comments })

@@ -1,10 +1,11 @@
 //! Text: one point per line, as in XYZ, PTS, CSV, ASC and TXT exports.
 //!
-//! Numbers are separated by blanks, tabs, commas or semicolons; decimal commas are refused. Lines that begin with `#` or `//` are
-//! comments. A first line of words names the columns. A line with a single whole number gives the number of
-//! points that follow (PTS; again in front of each further scan).
+//! Numbers are separated by blanks, tabs, commas or semicolons; decimal commas are refused. Nothing between two commas or semicolons is a
+//! column without a value. Lines that begin with `#` or `//` are comments. A first line of words names the columns, as many as there are. A line with
+//! a single whole number gives the number of points that follow (PTS; again in front of each further scan).
 
 use super::ReadError;
+use super::xyz_columns::{Header, Named, is_units, pieces, separator};
 use crate::Cloud;
 use geom::Vec3;
 use stream::{MOST_COLUMNS, Table, Values};
@@ -35,18 +36,13 @@ pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
         number += 1;
         let line = std::str::from_utf8(line)
             .map_err(|_| error(number, "not UTF-8 text", &String::from_utf8_lossy(line)))?;
-        rows.line(number, line.trim())?;
+        rows.line(number, line)?;
     }
     rows.into_cloud(number)
 }
 
 fn error(line: usize, what: impl Into<String>, text: &str) -> ReadError {
-    ReadError::Text { line, what: what.into(), text: text.chars().take(80).collect() }
-}
-
-fn words(line: &str) -> impl Iterator<Item = &str> {
-    // A comma or semicolon with blanks around it is one separator.
-    line.split([' ', '\t', ',', ';']).filter(|w| !w.is_empty())
+    ReadError::Text { line, what: what.into(), text: text.trim().chars().take(80).collect() }
 }
 
 /// Whether a comma is the decimal sign: something else, or a comma with a blank, separates numbers.
@@ -66,11 +62,16 @@ fn decimal_commas(line: &str) -> bool {
     line.contains(';') || (blank && tight) || (comma && tight && !line.contains('.'))
 }
 
-#[derive(Default)]
 struct Rows {
     points: Vec<Vec3>,
     extra: Vec<Vec<f64>>,
-    names: Option<Vec<String>>,
+    header: Option<Header>,
+    /// Names of all columns, once the first point is there.
+    names: Vec<String>,
+    /// Which columns are x, y and z.
+    axes: [usize; 3],
+    /// Whether tabs separate columns one by one.
+    by_tabs: bool,
     /// Columns of the first point.
     width: usize,
     /// Points that the count lines so far promise.
@@ -78,28 +79,48 @@ struct Rows {
     comments: Vec<String>,
 }
 
+impl Default for Rows {
+    fn default() -> Rows {
+        Rows {
+            points: Vec::new(),
+            extra: Vec::new(),
+            header: None,
+            names: Vec::new(),
+            axes: [0, 1, 2],
+            by_tabs: false,
+            width: 0,
+            promised: None,
+            comments: Vec::new(),
+        }
+    }
+}
+
+/// Comments that are kept.
+const MOST_COMMENTS: usize = 100;
+
 impl Rows {
     fn line(&mut self, number: usize, line: &str) -> Result<(), ReadError> {
-        if line.is_empty() {
+        if line.trim().is_empty() {
             return Ok(());
         }
-        if let Some(comment) = line.strip_prefix('#').or_else(|| line.strip_prefix("//")) {
-            let comment = comment.trim_start_matches(['#', '/']).trim();
-            if self.points.is_empty() && self.names.is_none() && is_header(comment) {
-                self.names = Some(names(comment));
-            } else if self.points.is_empty() && self.comments.len() < 100 {
-                self.comments.push(comment.to_owned());
+        let trimmed = line.trim_start();
+        if let Some(comment) = trimmed.strip_prefix('#').or_else(|| trimmed.strip_prefix("//")) {
+            self.comment(number, comment.trim_start_matches(['#', '/']).trim());
+            return Ok(());
+        }
+        if self.points.is_empty() && self.header.as_ref().is_none_or(|h| h.is_comment) {
+            if let Some(header) = Header::new(line, number, false) {
+                self.header = Some(header);
+                return Ok(());
             }
-            return Ok(());
-        }
-        if self.points.is_empty() && self.names.is_none() && is_header(line) {
-            self.names = Some(names(line));
+        } else if self.points.is_empty() && is_units(line) {
+            self.comment(number, line.trim());
             return Ok(());
         }
         let done = self.promised.is_none_or(|p| p == self.points.len());
         if done
             && let (Ok(count), true) =
-                (line.parse::<usize>(), self.promised.is_some() || self.points.is_empty())
+                (line.trim().parse::<usize>(), self.promised.is_some() || self.points.is_empty())
         {
             self.promised = Some(self.points.len().saturating_add(count));
             return Ok(());
@@ -114,39 +135,94 @@ impl Rows {
         self.point(number, line)
     }
 
+    fn comment(&mut self, number: usize, comment: &str) {
+        if !self.points.is_empty() {
+            return;
+        }
+        if self.header.is_none() {
+            self.header = Header::new(comment, number, true);
+            if self.header.is_some() {
+                return;
+            }
+        }
+        if self.comments.len() < MOST_COMMENTS {
+            self.comments.push(comment.to_owned());
+        }
+    }
+
+    /// Takes the names and the number of columns from the first line of numbers.
+    fn begin(&mut self, number: usize, line: &str) -> Result<(), ReadError> {
+        if let Some(header) = &self.header {
+            let named = header.columns(line).map_err(|what| error(header.line, what, &header.text))?;
+            match named {
+                Some(Named { names, axes, by_tabs }) => {
+                    (self.width, self.names, self.axes, self.by_tabs) = (names.len(), names, axes, by_tabs);
+                    return Ok(());
+                }
+                None => self.comments.push(header.text.clone()),
+            }
+        }
+        let separator = separator(line, false);
+        let open = separator.is_some_and(|s| line.trim_end_matches([' ', '\r']).ends_with(s));
+        self.width = pieces(line, separator).count() - usize::from(open);
+        if self.width > MOST_COLUMNS {
+            let what = format!("more than {MOST_COLUMNS} columns: is the line end missing?");
+            return Err(error(number, what, line));
+        }
+        Ok(())
+    }
+
     fn point(&mut self, number: usize, line: &str) -> Result<(), ReadError> {
         if decimal_commas(line) {
             return Err(error(number, "decimal commas: write numbers with a point", line));
         }
+        if self.points.is_empty() {
+            self.begin(number, line)?;
+            self.extra.resize(self.width.saturating_sub(3), Vec::new());
+        }
+        let separator = separator(line, self.by_tabs);
         let mut values = [0.0; 3];
-        let mut width = 0;
-        for word in words(line) {
-            let value: f64 = word.parse().map_err(|_| {
-                error(number, format!("'{word}' (column {}) is not a number", width + 1), line)
-            })?;
-            match width {
-                0..3 => values[width] = value,
-                _ if self.points.is_empty() && width < MOST_COLUMNS => self.extra.push(vec![value]),
-                _ if self.points.is_empty() => {
-                    let what = format!("more than {MOST_COLUMNS} columns: is the line end missing?");
-                    return Err(error(number, what, line));
+        let (mut width, mut extra) = (0, 0);
+        for word in pieces(line, separator) {
+            // A separator at the end separates nothing.
+            if width == self.width && word.is_empty() {
+                continue;
+            }
+            let value: f64 = match word {
+                "" => f64::NAN,
+                word => word.parse().map_err(|_| self.not_a_number(number, word, width, line))?,
+            };
+            match self.axes.iter().position(|&axis| axis == width) {
+                Some(axis) => values[axis] = value,
+                None => {
+                    let Some(column) = self.extra.get_mut(extra) else {
+                        return Err(self.uneven(number, pieces(line, separator).count(), line));
+                    };
+                    column.push(value);
+                    extra += 1;
                 }
-                _ => match self.extra.get_mut(width - 3) {
-                    Some(column) => column.push(value),
-                    None => return Err(self.uneven(number, words(line).count(), line)),
-                },
             }
             width += 1;
+        }
+        if width == 1 && self.points.is_empty() && self.promised.is_some() {
+            let what = "a second whole number begins PTX, a grid of a scanner, which is not read: export PTS, E57 or PLY";
+            return Err(error(number, what, line));
         }
         if width < 3 {
             return Err(error(number, format!("{width} numbers where a point has at least x y z"), line));
         }
-        if !self.points.is_empty() && width != self.width {
+        if width != self.width {
             return Err(self.uneven(number, width, line));
         }
-        self.width = width;
         self.points.push(values.into());
         Ok(())
+    }
+
+    fn not_a_number(&self, number: usize, word: &str, column: usize, line: &str) -> ReadError {
+        let what = format!("'{word}' (column {}) is not a number", column + 1);
+        let is_first = self.points.is_empty() && self.header.is_none();
+        let cure = if is_first { "; a line of names has x, y and z among them" } else { "" };
+        error(number, what + cure, line)
     }
 
     fn uneven(&self, number: usize, width: usize, line: &str) -> ReadError {
@@ -164,11 +240,13 @@ impl Rows {
         let pts =
             self.promised.and(PTS.get(self.extra.len())).filter(|names| names.len() == self.extra.len());
         let mut attributes = Table::with_rows(found);
-        for (i, column) in self.extra.into_iter().enumerate() {
-            let given = self.names.as_ref().and_then(|n| n.get(i + 3)).cloned();
+        let columns = (0..self.width).filter(|column| !self.axes.contains(column));
+        for (i, (at, column)) in columns.zip(self.extra).enumerate() {
+            let given = self.names.get(at).filter(|name| !name.is_empty()).cloned();
             let name = given.or_else(|| pts.map(|names| names[i].to_owned()));
-            let name = name.unwrap_or_else(|| format!("c{}", i + 4));
-            let name = if attributes.get(&name).is_some() { format!("c{}", i + 4) } else { name };
+            let name = name.unwrap_or_else(|| format!("c{}", at + 1));
+            let is_taken = attributes.get(&name).is_some() || ["x", "y", "z"].contains(&name.as_str());
+            let name = if is_taken { format!("c{}", at + 1) } else { name };
             let values = typed(&name, column);
             attributes
                 .push(&name, values)
@@ -178,33 +256,10 @@ impl Rows {
             points: self.points,
             attributes,
             double: true,
-            position_column: 0,
+            position_column: self.axes.into_iter().min().unwrap_or(0),
             comments: self.comments,
         })
     }
-}
-
-/// Whether a line names columns: its first three words are x, y, z in some spelling.
-fn is_header(line: &str) -> bool {
-    let mut words = words(line).map(|w| w.trim_matches('"').to_ascii_lowercase());
-    let axis = |word: Option<String>, axis: &str| {
-        word.is_some_and(|w| {
-            w == axis || w.starts_with(&format!("{axis}_")) || w.starts_with(&format!("{axis}["))
-        })
-    };
-    axis(words.next(), "x") && axis(words.next(), "y") && axis(words.next(), "z")
-}
-
-/// Names that PLY can hold; colours in the spelling of PLY.
-fn names(line: &str) -> Vec<String> {
-    words(line)
-        .map(|w| match w.trim_matches('"') {
-            "R" | "r" | "Red" => "red".to_owned(),
-            "G" | "g" | "Green" => "green".to_owned(),
-            "B" | "b" | "Blue" => "blue".to_owned(),
-            other => other.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect(),
-        })
-        .collect()
 }
 
 /// Colours are bytes where they can be; everything else stays as it was read.

@@ -20,10 +20,15 @@ pub(super) fn body<const BIG: bool>(header: Header, bytes: &[u8], mut at: usize)
             None => Rows::new(element, bytes, at).read::<BIG>(&mut at)?,
         });
     }
-    match bytes.len() - at {
-        0 => Ok(ply),
-        extra => Err(PlyError::Trailing { extra: extra as u64, byte: at as u64 }),
+    match &bytes[at..] {
+        rest if is_line_end(rest) => Ok(ply),
+        rest => Err(PlyError::Trailing { extra: rest.len() as u64, byte: at as u64 }),
     }
+}
+
+/// Whether nothing stands behind the data, or the end of a line that some programs write.
+pub(super) fn is_line_end(rest: &[u8]) -> bool {
+    matches!(rest, b"" | b"\n" | b"\r\n")
 }
 
 /// An element without lists: all rows are `stride` bytes wide.

@@ -2,12 +2,15 @@
 //!
 //! The bytes of the file are never all in memory, and a reader begins before the writer has ended.
 
-use super::{Encoding, NumberType, PlyError, header};
+use super::{Encoding, NumberType, PlyError, binary::is_line_end, header};
 use crate::{Values, number_type::of_kind, rows::Number};
 use std::io::{self, Read};
 
 /// Bytes that are read at once: they stay in the cache of a core until they are columns.
 const BLOCK: usize = 1 << 18;
+
+/// The longest end of a line [B].
+const LINE_END: u64 = 2;
 
 /// Rows that are still to come.
 pub struct Blocks<R> {
@@ -127,14 +130,19 @@ impl<R: Read> Blocks<R> {
         Ok(())
     }
 
-    /// Nothing may follow.
+    /// Nothing may follow but the end of a line.
     fn end(&mut self) -> Result<(), PlyError> {
-        let mut extra = (self.buffer.len() - self.used) as u64;
-        let byte = self.bytes - extra;
-        extra += io::copy(&mut self.from, &mut io::sink())?;
+        let mut rest = self.buffer.split_off(self.used);
+        let byte = self.bytes - rest.len() as u64;
+        self.from.by_ref().take(LINE_END).read_to_end(&mut rest)?;
+        let extra = rest.len() as u64 + io::copy(&mut self.from, &mut io::sink())?;
         self.buffer.clear();
         (self.used, self.bytes) = (0, byte);
-        if extra == 0 { Ok(()) } else { Err(PlyError::Trailing { extra, byte }) }
+        if extra == rest.len() as u64 && is_line_end(&rest) {
+            Ok(())
+        } else {
+            Err(PlyError::Trailing { extra, byte })
+        }
     }
 }
 

@@ -58,8 +58,12 @@ pub struct Drawn {
 /// What was found in a drawing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DrawnReport {
-    /// Triangles with an area.
+    /// Triangles with an area, each once.
     pub faces: usize,
+    /// Triangles left out because an earlier one has the same corners.
+    pub doubled_faces: usize,
+    /// Of them in the opposite order, on open parts without a position in the flow: the first drawn decides on their side.
+    pub undecided_faces: usize,
     /// Parts that hang together, and how many of them are closed.
     pub parts: usize,
     /// Of them closed.
@@ -124,6 +128,8 @@ pub fn place(mesh: &TriMesh, drawing: &Drawing) -> Result<Drawn, WallError> {
     let thin = on_faces.iter().filter(|c| c.thin);
     let report = DrawnReport {
         faces: surface.mesh.faces.len(),
+        doubled_faces: surface.doubled.faces,
+        undecided_faces: surface.doubled.undecided,
         parts: surface.parts,
         closed_parts: surface.closed,
         turned_parts: surface.turned,

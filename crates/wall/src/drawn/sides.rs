@@ -1,5 +1,6 @@
 //! On which side of a drawn surface the flow is.
 //!
+//! 0. Of faces with the same corners, as a face drawn on both sides or an exported part that is there twice, the first is kept.
 //! 1. Faces that share an edge are made to agree on a side, part by part.
 //! 2. If a position in the flow is given, each part faces it: seen from there, its nearest face shows its front.
 //! 3. Otherwise a closed part is a body, and the flow is around it, or inside it if it lies in another closed part (a cavity). An
@@ -24,6 +25,15 @@ pub(crate) struct DrawnSurface {
     pub closed: usize,
     pub turned: usize,
     pub one_sided: usize,
+    pub doubled: Doubled,
+}
+
+/// Faces left out because an earlier one has the same corners.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Doubled {
+    pub faces: usize,
+    /// Of them in the opposite order, in parts that are not closed: nothing but the order in the file says on which side the flow is.
+    pub undecided: usize,
 }
 
 impl DrawnSurface {
@@ -37,12 +47,18 @@ impl DrawnSurface {
         if mesh.faces.is_empty() {
             return None;
         }
+        let back = single(&mut mesh);
         let edges = edges(&mesh);
         let (part_of, parts, one_sided) = agree(&mut mesh, &edges);
-        let (closed, turned) = turn(&mut mesh, &edges, &part_of, parts, flow_at);
+        let open = open_parts(&edges, &part_of, parts);
+        let turned = turn(&mut mesh, &open, &part_of, flow_at);
+        let closed = open.iter().filter(|open| !**open).count();
+        let is_undecided = |face: &&u32| flow_at.is_none() && open[part_of[**face as usize] as usize];
+        let doubled =
+            Doubled { faces: back.faces, undecided: back.opposite.iter().filter(is_undecided).count() };
         let normal = |[a, b, c]: [Vec3; 3]| (b - a).cross(&(c - a)).normalize();
         let (normals, area) = (mesh.triangles().map(normal).collect(), mesh.area());
-        Some(DrawnSurface { normals, edges, area, parts, closed, turned, one_sided, mesh })
+        Some(DrawnSurface { normals, edges, area, parts, closed, turned, one_sided, doubled, mesh })
     }
 
     /// About `count` positions spread evenly over the faces, each with its normal: by area along the faces, and within a face by the
@@ -70,6 +86,32 @@ fn within([a, b, c]: [Vec3; 3], number: u64) -> Vec3 {
     let (s, t) = (share(0.754_877_666_246_692_7), share(0.569_840_290_998_053_3));
     let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (s, t) };
     a + (b - a) * s + (c - a) * t
+}
+
+/// Faces that were left out.
+struct LeftOut {
+    faces: usize,
+    /// The face that stays, for each that had its corners in the opposite order.
+    opposite: Vec<u32>,
+}
+
+/// Keeps the first of all faces with the same corners.
+fn single(mesh: &mut TriMesh) -> LeftOut {
+    let mut first: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.faces.len());
+    let (mut kept, mut opposite) = (Vec::with_capacity(mesh.faces.len()), Vec::new());
+    for &face in &mesh.faces {
+        let mut corners = face;
+        corners.sort_unstable();
+        let number = kept.len() as u32;
+        match *first.entry(corners).or_insert(number) {
+            new if new == number => kept.push(face),
+            old if !runs(kept[old as usize], (face[0], face[1])) => opposite.push(old),
+            _ => {}
+        }
+    }
+    let faces = mesh.faces.len() - kept.len();
+    mesh.faces = kept;
+    LeftOut { faces, opposite }
 }
 
 fn edges(mesh: &TriMesh) -> Vec<((u32, u32), Vec<u32>)> {
@@ -128,18 +170,18 @@ fn agree(mesh: &mut TriMesh, edges: &[((u32, u32), Vec<u32>)]) -> (Vec<u32>, usi
     (part_of, parts as usize, wrong)
 }
 
-/// Turns whole parts to the flow; how many are closed, and how many were turned.
-fn turn(
-    mesh: &mut TriMesh,
-    edges: &[((u32, u32), Vec<u32>)],
-    part_of: &[u32],
-    parts: usize,
-    flow_at: Option<Vec3>,
-) -> (usize, usize) {
+/// Which parts are not closed.
+fn open_parts(edges: &[((u32, u32), Vec<u32>)], part_of: &[u32], parts: usize) -> Vec<bool> {
     let mut open = vec![false; parts];
     for (_, faces) in edges.iter().filter(|(_, faces)| faces.len() != 2) {
         faces.iter().for_each(|&face| open[part_of[face as usize] as usize] = true);
     }
+    open
+}
+
+/// Turns whole parts to the flow; how many.
+fn turn(mesh: &mut TriMesh, open: &[bool], part_of: &[u32], flow_at: Option<Vec3>) -> usize {
+    let parts = open.len();
     let pieces = pieces(mesh, part_of, parts);
     let boxes: Vec<(Vec3, Vec3)> = pieces.iter().map(|piece| geom::grid::bounds(&piece.vertices)).collect();
     let is_within = |p: &Vec3, (lo, hi): &(Vec3, Vec3)| (0..3).all(|a| lo[a] <= p[a] && p[a] <= hi[a]);
@@ -160,7 +202,7 @@ fn turn(
     for (face, _) in mesh.faces.iter_mut().zip(part_of).filter(|(_, part)| turned[**part as usize]) {
         face.swap(1, 2);
     }
-    (open.iter().filter(|open| !**open).count(), turned.iter().filter(|turned| **turned).count())
+    turned.iter().filter(|turned| **turned).count()
 }
 
 /// The parts, each with its own vertices alone.
@@ -224,6 +266,31 @@ mod tests {
         }
         let surface = DrawnSurface::new(&mesh, None).unwrap();
         assert_eq!((surface.parts, surface.closed, surface.turned), (4000, 0, 0));
+    }
+
+    /// A drawing whose faces are there twice is the same drawing, whichever way the second ones run.
+    #[test]
+    fn doubled_faces_are_one() {
+        let body = cuboid(Vec3::zeros(), Vec3::repeat(1.0));
+        let turned = |mesh: &TriMesh| TriMesh {
+            faces: mesh.faces.iter().map(|&[a, b, c]| [c, b, a]).collect(),
+            ..mesh.clone()
+        };
+        let floor = TriMesh {
+            vertices: vec![Vec3::zeros(), Vec3::x(), Vec3::x() + Vec3::y(), Vec3::y()],
+            faces: vec![[0, 1, 2], [0, 2, 3]],
+        };
+        for (mesh, closed) in [(body, 1), (floor, 0)] {
+            let single = DrawnSurface::new(&mesh, None).unwrap();
+            let faces = mesh.faces.len();
+            for (other, opposite) in [(mesh.clone(), false), (turned(&mesh), true)] {
+                let doubled = DrawnSurface::new(&joined([mesh.clone(), other]), None).unwrap();
+                assert_eq!((&doubled.mesh, &doubled.normals), (&single.mesh, &single.normals));
+                assert_eq!((doubled.closed, doubled.area), (closed, single.area));
+                let undecided = if opposite && closed == 0 { faces } else { 0 };
+                assert_eq!(doubled.doubled, Doubled { faces, undecided });
+            }
+        }
     }
 
     /// Bodies stay as drawn, and what lies in one of them is a cavity.

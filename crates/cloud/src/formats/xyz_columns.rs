@@ -1,0 +1,189 @@
+//! Columns of text: what separates them in a line, and the names that a line gives them.
+
+/// What separates the columns of a line: one character, between two of which a column may be empty, or (none) any run of blanks, tabs, commas and semicolons.
+pub(super) type Separator = Option<char>;
+
+/// Names of the axes, in lower case, without a unit.
+const AXES: [&[&str]; 3] = [&["x", "easting"], &["y", "northing"], &["z", "height", "elevation"]];
+
+/// What separates the numbers of a line; a tab counts only if `tabs` says so, because some programs align columns with several.
+pub(super) fn separator(line: &str, tabs: bool) -> Separator {
+    let found = [';', ',', '\t'].into_iter().find(|&s| (s != '\t' || tabs) && line.contains(s))?;
+    // "1 2 3, 4" is separated by anything.
+    let is_one = |piece: &str| !piece.trim_ascii().contains([' ', '\t']);
+    (!(line.contains(' ') || line.contains('\t')) || line.split(found).all(is_one)).then_some(found)
+}
+
+/// The columns of a line of numbers.
+pub(super) fn pieces(line: &str, separator: Separator) -> Pieces<'_> {
+    let any = [' ', '\t', ',', ';'];
+    let separates = separator.map_or(any, |one| [one; 4]).map(|c| c as u8);
+    Pieces { rest: Some(line.trim_end_matches([' ', '\r'])), separates, is_strict: separator.is_some() }
+}
+
+/// Parts of a line; bytes are looked at, because this takes most of the time of reading.
+pub(super) struct Pieces<'a> {
+    rest: Option<&'a str>,
+    separates: [u8; 4],
+    is_strict: bool,
+}
+
+impl<'a> Iterator for Pieces<'a> {
+    type Item = &'a str;
+
+    fn next(&mut self) -> Option<&'a str> {
+        loop {
+            let rest = self.rest?;
+            let [a, b, c, d] = self.separates;
+            let end = rest.bytes().position(|byte| byte == a || byte == b || byte == c || byte == d);
+            let piece = match end {
+                Some(end) => {
+                    self.rest = rest.get(end + 1..);
+                    &rest[..end]
+                }
+                None => {
+                    self.rest = None;
+                    rest
+                }
+            };
+            if self.is_strict {
+                return Some(piece.trim_ascii());
+            }
+            if !piece.is_empty() {
+                return Some(piece);
+            }
+        }
+    }
+}
+
+/// A line of names.
+pub(super) struct Header {
+    pub(super) text: String,
+    /// Its number in the file, from 1.
+    pub(super) line: usize,
+    /// Whether it stands behind a mark of a comment, and may be one.
+    pub(super) is_comment: bool,
+}
+
+/// How one line of names can be read.
+struct Split {
+    separator: Separator,
+    names: Vec<String>,
+    axes: [usize; 3],
+}
+
+/// Names of columns.
+pub(super) struct Named {
+    /// As PLY can hold them; empty for a column without a name.
+    pub(super) names: Vec<String>,
+    /// Which columns are x, y and z.
+    pub(super) axes: [usize; 3],
+    /// Whether tabs separate them.
+    pub(super) by_tabs: bool,
+}
+
+impl Header {
+    /// A line that names x, y and z.
+    pub(super) fn new(text: &str, line: usize, is_comment: bool) -> Option<Header> {
+        let header = Header { text: text.to_owned(), line, is_comment };
+        (!header.splits().is_empty()).then_some(header)
+    }
+
+    fn splits(&self) -> Vec<Split> {
+        let strict = [';', ',', '\t'].into_iter().filter(|&s| self.text.contains(s)).map(Some);
+        let splits = strict.chain([None]).filter_map(|separator| {
+            let names = split(&self.text, separator);
+            // A sentence may hold these words anywhere.
+            let sentence = self.is_comment && separator.is_none();
+            let axes = axes(&names).filter(|axes| !sentence || *axes == [0, 1, 2])?;
+            Some(Split { separator, names, axes })
+        });
+        splits.collect()
+    }
+
+    /// The names of the columns of a first line of numbers: split as that line is, if it can be; none if it is a comment after all.
+    ///
+    /// # Errors
+    /// Another number of names than of columns.
+    pub(super) fn columns(&self, row: &str) -> Result<Option<Named>, String> {
+        let mut splits = self.splits();
+        let by_tabs = splits.iter().any(|s| s.separator == Some('\t'));
+        let mut separator = separator(row, by_tabs);
+        let same = splits.iter().position(|s| separator.is_some() && s.separator == separator).unwrap_or(0);
+        // Several tabs that align columns are one separator.
+        if separator == Some('\t') && pieces(row, separator).count() != splits[same].names.len() {
+            separator = None;
+        }
+        let Split { names, axes, .. } = splits.swap_remove(same);
+        let count = pieces(row, separator).count();
+        // One more separator at the end of each line, or of this one, separates nothing.
+        let is_open = separator.is_some_and(|s| row.trim_end_matches([' ', '\r']).ends_with(s));
+        let nameless = names.last().is_some_and(String::is_empty) && (is_open || names.len() > count);
+        let wanted = names.len() - usize::from(nameless);
+        let found = count - usize::from(is_open && wanted + 1 == count);
+        if wanted == found {
+            let names = names.iter().take(wanted).map(|name| for_ply(name)).collect();
+            return Ok(Some(Named { names, axes, by_tabs: separator == Some('\t') }));
+        }
+        if self.is_comment && found == 3 {
+            return Ok(None);
+        }
+        Err(format!(
+            "{wanted} names ({}) for the {found} columns of the first point: name every column, with the separator \
+             that the numbers have, or remove the line of names",
+            names.join(" | ")
+        ))
+    }
+}
+
+/// The names of a line; quotes hold names with a separator.
+fn split(text: &str, separator: Separator) -> Vec<String> {
+    let Some(separator) = separator else {
+        return pieces(text, None).map(|w| w.trim_matches('"').to_owned()).collect();
+    };
+    let mut records = csv::ReaderBuilder::new()
+        .delimiter(separator as u8)
+        .has_headers(false)
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes())
+        .into_records();
+    let record = records.next().and_then(Result::ok).unwrap_or_default();
+    record.iter().map(str::to_owned).collect()
+}
+
+/// Which names are x, y and z; those with something behind the letter only at the beginning of the line.
+fn axes(names: &[String]) -> Option<[usize; 3]> {
+    let plain: Vec<String> = names.iter().map(|n| without_unit(n).to_ascii_lowercase()).collect();
+    let at = AXES.map(|of| plain.iter().position(|name| of.contains(&name.as_str())));
+    if let [Some(x), Some(y), Some(z)] = at {
+        return Some([x, y, z]);
+    }
+    let begins = |name: &String, axis: &str| {
+        let rest = name.to_ascii_lowercase().strip_prefix(axis).map(str::to_owned);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['_', '[']))
+    };
+    let first = names.get(..3)?.iter().zip(["x", "y", "z"]).all(|(name, axis)| begins(name, axis));
+    first.then_some([0, 1, 2])
+}
+
+/// A name without a unit in brackets behind a blank.
+fn without_unit(name: &str) -> &str {
+    let unit = |(_, unit): &(&str, &str)| unit.ends_with(']');
+    name.split_once(" [").filter(unit).map_or(name, |(name, _)| name.trim())
+}
+
+/// A name that PLY can hold; colours in the spelling of PLY.
+fn for_ply(name: &str) -> String {
+    match without_unit(name) {
+        "R" | "r" | "Red" => "red".to_owned(),
+        "G" | "g" | "Green" => "green".to_owned(),
+        "B" | "b" | "Blue" => "blue".to_owned(),
+        other => other.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect(),
+    }
+}
+
+/// Whether a line gives units only, as some programs write under the names.
+pub(super) fn is_units(line: &str) -> bool {
+    pieces(line, None)
+        .all(|word| word.len() > 2 && word.starts_with(['[', '(']) && word.ends_with([']', ')']))
+}

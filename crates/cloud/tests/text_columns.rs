@@ -1,0 +1,101 @@
+//! Names of the columns of text belong to the columns, whatever separates them.
+
+use cloud::{Cloud, from_bytes};
+use geom::Vec3;
+use std::collections::BTreeMap;
+
+fn read(text: &str) -> Cloud {
+    from_bytes(text.as_bytes().to_vec()).unwrap_or_else(|e| panic!("{text}: {e}"))
+}
+
+fn refused(text: &str) -> String {
+    from_bytes(text.as_bytes().to_vec()).expect_err(text).to_string()
+}
+
+/// Value of each column in the first row.
+fn columns(text: &str) -> BTreeMap<String, f64> {
+    read(text).attributes.columns().iter().map(|c| (c.name.clone(), c.values.get(0))).collect()
+}
+
+fn expected<const N: usize>(of: [(&str, f64); N]) -> BTreeMap<String, f64> {
+    of.map(|(name, value)| (name.to_owned(), value)).into()
+}
+
+#[test]
+fn a_name_with_a_blank_is_one_name() {
+    let wear = expected([("Wall_ID", 7.0), ("wear", 0.001), ("age", 30.0)]);
+    for text in [
+        "X,Y,Z,Wall ID,wear,age\n1,2,3,7,0.001,30\n",
+        "X, Y, Z, Wall ID, wear, age\n1, 2, 3, 7, 0.001, 30\n",
+        "# x,y,z,Wall ID,wear,age\n1,2,3,7,0.001,30\n",
+        "\"x\";\"y\";\"z\";\"Wall ID\";wear;age\n1;2;3;7;0.001;30\n",
+        "//X;Y;Z;Wall ID;wear;age\n1\n1;2;3;7;0.001;30\n",
+        "X\tY\tZ\tWall ID\twear\tage\n1\t2\t3\t7\t0.001\t30\n",
+        "x,y,z,Wall ID,wear,age\n1 2 3 7 0.001 30\n",
+        "x y z Wall_ID wear age\n1,2,3,7,0.001,30\n",
+        "x y z Wall_ID wear age\n1\t2\t3\t\t7\t0.001\t30\n",
+        "x\ty\tz\tWall ID\twear\tage\n1\t\t2\t\t3\t7\t0.001\t30\n",
+        "x,y,z,Wall ID,wear,age,\n1,2,3,7,0.001,30,\n",
+        "x [m],y [m],z [m],Wall ID,wear [m],age [a]\n1,2,3,7,0.001,30\n",
+        "X Y Z Wall_ID wear age\n[m] [m] [m] [-] [m] [a]\n1 2 3 7 0.001 30\n",
+    ] {
+        assert_eq!(columns(text), wear, "{text}");
+    }
+    let quoted = columns("x,y,z,\"a, b\",c\n1,2,3,4,5\n");
+    assert_eq!(quoted, expected([("a,_b", 4.0), ("c", 5.0)]));
+}
+
+#[test]
+fn x_y_and_z_may_stand_anywhere() {
+    for text in [
+        "id,x,y,z\n7,1,2,3\n",
+        "id x y z\n7 1 2 3\n",
+        "X [m];id;Y [m];Z [m]\n1;7;2;3\n",
+        "Northing,Easting,id,Height\n2,1,7,3\n",
+    ] {
+        assert_eq!(read(text).points, [Vec3::new(1.0, 2.0, 3.0)], "{text}");
+        assert_eq!(columns(text), expected([("id", 7.0)]), "{text}");
+    }
+}
+
+#[test]
+fn a_column_without_a_value_does_not_take_the_next_one() {
+    for text in [
+        "x,y,z,intensity,label\n1,2,3,,5\n",
+        "x;y;z;intensity;label\n1;2;3; ;5\n",
+        "x\ty\tz\tintensity\tlabel\n1\t2\t3\t\t5\n",
+    ] {
+        let found = columns(text);
+        assert!(found["intensity"].is_nan() && found["label"] == 5.0, "{text}: {found:?}");
+    }
+    let last = columns("x\ty\tz\tlabel\n1\t2\t3\t\n");
+    assert!(last["label"].is_nan(), "{last:?}");
+    assert!(read("x,y,z,label\n1,,3,4\n").points[0].y.is_nan());
+    assert_eq!(read("1,2,3,\n4,5,6,\n").attributes.columns().len(), 0, "a separator at the end is no column");
+}
+
+#[test]
+fn other_numbers_of_names_than_columns_are_refused() {
+    for (text, parts) in [
+        ("x,y,z,a,b\n1,2,3,4\n", ["line 1", "5 names (x | y | z | a | b) for the 4 columns"]),
+        ("x,y,z,a\n1,2,3,4,5\n", ["line 1", "4 names"]),
+        ("x y z Wall ID wear\n1 2 3 4 5\n", ["6 names", "name every column"]),
+        ("\nx,y,z,Wall ID\n1,2,3,4,5\n", ["line 2", "4 names"]),
+        ("# x y z of the plant\n1 2 3 4\n", ["line 1", "6 names"]),
+        ("east,north,up\n1,2,3\n", ["line 1", "has x, y and z among them"]),
+    ] {
+        let message = refused(text);
+        assert!(parts.iter().all(|part| message.contains(part)), "{text}: {message}");
+    }
+    let comment = read("# x y z of the plant\n1 2 3\n");
+    assert_eq!(comment.comments, ["x y z of the plant"]);
+}
+
+#[test]
+fn utf_16_and_ptx_are_named() {
+    let ptx = "20\n20\n10 20 1.5\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 1.5 1\n1 2 3 0.5\n";
+    assert!(refused(ptx).contains("line 2: a second whole number begins PTX"), "{}", refused(ptx));
+    let bytes: Vec<u8> = "\u{feff}1 2 3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let message = from_bytes(bytes).expect_err("two bytes a letter").to_string();
+    assert!(message.contains("UTF-16") && message.contains("iconv"), "{message}");
+}
