@@ -153,10 +153,9 @@ impl<W: Write> Run<W> {
     }
 
     /// Writes what broke since the last time, and notes bonds that were due and found no pair. What broke at the instant that a run is resumed from was written
-    /// with the frame of that instant.
+    /// with the frame of that instant, which the end of a run writes whether it is due or not.
     fn write_cracks(&mut self) -> Result<()> {
-        let told = self.cracks_told && self.schedule.is_frame(self.first);
-        let told = if told { self.first as f64 * self.sim.dt() } else { f64::NEG_INFINITY };
+        let told = if self.cracks_told { self.first as f64 * self.sim.dt() } else { f64::NEG_INFINITY };
         let mut cracks = self.sim.take_cracks();
         cracks.retain(|crack| crack.time > told);
         if !cracks.is_empty() {
