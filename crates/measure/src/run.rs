@@ -7,13 +7,13 @@ use crate::periodic::PeriodicBox;
 use crate::settling::Settled;
 use crate::{Bonds, MeasureError, WallForces, table::Columns};
 use geom::{Plane, Shape, Vec3};
-use record::DomainRecord;
 use record::column::{POSITION, RADIUS, WALL};
 use record::metadata::{MATERIALS, OUTLETS, SCENE, TIME};
 use record::topic::{
     BODIES, BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES,
     WALLS,
 };
+use record::{DomainRecord, Ending};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use stream::{Table, mcap::Event};
@@ -86,6 +86,8 @@ pub struct Run {
     pub spheres: WallSpheres,
     /// Changes whenever `spheres` does.
     pub spheres_seen: u64,
+    /// Whether it came to its end.
+    pub ending: Ending,
     /// A frame with clumps, whose message comes next.
     pub(crate) waiting: Option<Frame>,
 }
@@ -96,6 +98,7 @@ impl Run {
     /// # Errors
     /// Messages that lack columns or hold numbers that cannot be.
     pub fn take(&mut self, event: Event) -> Result<Option<RunMessage>, MeasureError> {
+        self.ending.take(&event);
         let seconds = |ns: u64| ns as f64 / 1e9;
         Ok(match event {
             Event::Metadata { name, map } => {
