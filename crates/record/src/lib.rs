@@ -17,6 +17,7 @@ mod limits;
 mod material;
 mod messages;
 pub mod metadata;
+pub mod name;
 mod surface;
 mod table;
 pub mod topic;
