@@ -1,13 +1,13 @@
 //! The parts of a straight way that lie in a solid.
 //!
 //! Boxes, spheres, cylinders, cones and half spaces: the way is cut where it meets a surface, in closed form, and a piece lies inside if
-//! its middle does. Prisms and meshes: 64 pieces are looked at, and the ends of what is inside are found by halving; what is
-//! thinner than a piece may be missed.
+//! its middle does. Prisms and meshes: 4 to 64 pieces are looked at, of 1/64 of the solid where these are enough, and the ends of what is inside are found by
+//! halving; what is thinner than a piece may be missed.
 
 use geom::{Vec3, shape::Solid};
 
-/// Pieces of a way that are looked at where a solid has no closed form.
-const PIECES: u32 = 64;
+/// Fewest and most pieces of a way that are looked at where a solid has no closed form; a piece is so many times shorter than the solid.
+const PIECES: [f64; 2] = [4.0, 64.0];
 /// Halvings of a piece: to 1e-11 of the way.
 const HALVINGS: u32 = 30;
 
@@ -59,8 +59,12 @@ fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
 
 fn searched(solid: &Solid, from: &Vec3, way: &Vec3) -> Vec<f64> {
     let holds = |t: f64| solid.contains(&(from + way * t));
-    let at = |k: u32| f64::from(k) / f64::from(PIECES);
-    let changes = (0..PIECES).filter(|k| holds(at(*k)) != holds(at(k + 1)));
+    let (low, high) = solid.bounds();
+    let [fewest, most] = PIECES;
+    let wanted = most * way.norm() / (high - low).min();
+    let count = wanted.ceil().max(fewest).min(most) as u32;
+    let at = |k: u32| f64::from(k) / f64::from(count);
+    let changes = (0..count).filter(|k| holds(at(*k)) != holds(at(k + 1)));
     let change = |k: u32| {
         let (mut low, mut high) = (at(k), at(k + 1));
         let before = holds(low);
