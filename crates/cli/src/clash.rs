@@ -12,7 +12,7 @@ use std::{
 };
 
 /// Options that name a file to write, in any tool: id and flag. None of them changes the result.
-pub(crate) const OUTPUTS: [(&str, &str); 15] = [
+const OUTPUTS: [(&str, &str); 15] = [
     ("output", "-o"),
     ("report", "--report"),
     ("plot", "--plot"),
@@ -89,10 +89,15 @@ fn outputs(matches: &ArgMatches) -> Vec<OutputFile> {
     OUTPUTS.iter().filter_map(named).collect()
 }
 
+/// Whether an argument names a file to write. What has no flag is an input, whatever its name.
+pub(crate) fn is_output(argument: &Arg) -> bool {
+    !argument.is_positional() && OUTPUTS.iter().any(|output| output.0 == argument.get_id().as_str())
+}
+
 /// The files that an argument names for reading; what is none does no harm.
 fn read_by(argument: &Arg, matches: &ArgMatches) -> Vec<PathBuf> {
     let id = argument.get_id().as_str();
-    if OUTPUTS.iter().any(|output| output.0 == id) {
+    if is_output(argument) {
         return Vec::new();
     }
     let values = matches.try_get_raw(id).ok().flatten().into_iter().flatten();
@@ -118,4 +123,26 @@ fn written(path: &Path) -> Option<PathBuf> {
     }
     let target = target(path).ok()?;
     Some(folder(&target).canonicalize().ok()?.join(target.file_name()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `stone-clump MESH` reads what `cloud-fill --mesh` writes.
+    #[test]
+    fn an_argument_without_a_flag_is_read_whatever_its_name() {
+        let read = |argument: Arg, given: [&str; 2]| {
+            let command = Command::new("tool").arg(argument.value_parser(clap::value_parser!(PathBuf)));
+            let given = [&["tool"], &given[..]].concat().into_iter().filter(|word| !word.is_empty());
+            let matches = command.clone().try_get_matches_from(given).unwrap();
+            command.get_arguments().flat_map(|a| read_by(a, &matches)).collect::<Vec<_>>()
+        };
+        assert_eq!(read(Arg::new("mesh"), ["stone.ply", ""]), [Path::new("stone.ply")]);
+        assert!(read(Arg::new("mesh").long("mesh").value_name("FILE"), ["--mesh", "stone.ply"]).is_empty());
+        assert_eq!(
+            read(Arg::new("other").long("other").value_name("FILE"), ["--other", "a.ply"]),
+            [Path::new("a.ply")]
+        );
+    }
 }

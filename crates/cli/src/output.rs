@@ -198,6 +198,10 @@ impl OutputStream {
             }
             found => dangling(path, &target, found.ok()),
         }
+        writable(&target).with_context(|| {
+            let cure = "remove the protection (chmod u+w), or choose another name";
+            link(path, &target, format!("{name}: exists and is write-protected: {cure}"))
+        })?;
         let stem = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let part = signals::removed_on_signal(|| part(folder(&target), &stem))
             .with_context(|| link(path, &target, failed()))?;
@@ -259,6 +263,14 @@ fn dangling(path: &Path, target: &Path, found: Option<Metadata>) {
     if found.is_none() && path.is_symlink() {
         let (path, target) = (path.display(), target.display());
         crate::warn(&format!("{path} is a link to {target}, which does not exist: it is created there"));
+    }
+}
+
+/// Whether a file may be replaced: only where it could be written to, as `>` of a shell would.
+fn writable(target: &Path) -> io::Result<()> {
+    match File::options().write(true).open(target) {
+        Err(e) if matches!(e.kind(), io::ErrorKind::PermissionDenied) => Err(e),
+        _ => Ok(()),
     }
 }
 

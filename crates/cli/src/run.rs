@@ -1,9 +1,7 @@
 //! How every tool starts and ends.
 
 use crate::{
-    Report, Source, Stopped,
-    clash::{self, OUTPUTS},
-    describe,
+    Report, Source, Stopped, clash, describe,
     exit::{self, code, one_line, reader_closed_the_pipe},
     output::OutputStream,
     signals,
@@ -11,7 +9,9 @@ use crate::{
     stdout,
 };
 use anyhow::Context;
-use clap::{ArgMatches, Args as _, Command, FromArgMatches as _, builder::Resettable, parser::ValueSource};
+use clap::{
+    Arg, ArgMatches, Args as _, Command, FromArgMatches as _, builder::Resettable, parser::ValueSource,
+};
 use serde_json::{Map, Value, json};
 use std::{
     io::{ErrorKind, Write},
@@ -231,9 +231,9 @@ fn set_threads(common: &Common) -> anyhow::Result<()> {
 }
 
 /// Whether an option changes nothing in the result.
-fn is_silent(id: &str) -> bool {
-    ["quiet", "threads", "device", "progress", "help", "version"].contains(&id)
-        || OUTPUTS.iter().any(|output| output.0 == id)
+fn is_silent(argument: &Arg) -> bool {
+    let id = argument.get_id().as_str();
+    ["quiet", "threads", "device", "progress", "help", "version"].contains(&id) || clash::is_output(argument)
 }
 
 /// See [`arguments`].
@@ -243,7 +243,7 @@ fn canonical(command: &Command, matches: &ArgMatches) -> Vec<String> {
         let id = argument.get_id().as_str();
         let given = matches!(matches.try_contains_id(id), Ok(true))
             && matches.value_source(id) == Some(ValueSource::CommandLine);
-        if !given || is_silent(id) || matches.try_get_many::<Source>(id).is_ok() {
+        if !given || is_silent(argument) || matches.try_get_many::<Source>(id).is_ok() {
             continue;
         }
         let prefix = argument.get_long().map(|long| format!("--{long}")).unwrap_or_default();

@@ -18,7 +18,7 @@ fn main() -> ExitCode {
     if std::env::var_os(tool::SWITCH).is_some() {
         return tool::main();
     }
-    let tests: [(&str, Test); 18] = [
+    let tests: [(&str, Test); 19] = [
         ("a file appears when it is whole, with ordinary permissions", a_file_appears_when_it_is_whole),
         ("a failed tool leaves the old file and nothing else", a_failed_tool_leaves_the_old_file),
         ("a panic leaves nothing", a_panic_leaves_nothing),
@@ -26,6 +26,7 @@ fn main() -> ExitCode {
         ("links stay links, devices and pipes stay what they are", links_and_pipes_stay),
         ("a link without a target stays, and its target is created", a_dangling_link_stays),
         ("a file that is replaced keeps its mode and owner", a_replaced_file_keeps_its_mode),
+        ("a write-protected file is not replaced", a_protected_file_stays),
         ("a limit on the size of files is an error", a_size_limit_is_an_error),
         ("a closed pipe is no failure", a_closed_pipe_is_no_failure),
         ("a closed stdout is a failure", a_closed_stdout_is_a_failure),
@@ -185,6 +186,29 @@ fn a_dangling_link_stays(folder: &Path) {
     std::os::unix::fs::symlink("circle", folder.join("circle")).unwrap();
     let out = run(folder, &["write", "-o", "circle"]);
     assert!(out.status.code() == Some(1) && text(&out.stderr).contains("circle"), "{}", text(&out.stderr));
+}
+
+fn a_protected_file_stays(folder: &Path) {
+    use std::os::unix::{fs::PermissionsExt, process::CommandExt};
+    let mode = |path: &Path, mode| fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
+    let path = folder.join("out.bin");
+    fs::write(&path, "precious").unwrap();
+    mode(&path, 0o444);
+    mode(folder, 0o777);
+    // Root may write to everything: the tool runs as another user.
+    let program = folder.join("tool");
+    fs::copy(std::env::current_exe().unwrap(), &program).unwrap();
+    mode(&program, 0o755);
+    let mut tool = Command::new(&program);
+    tool.args(["fail", "-o", "out.bin"]).env(tool::SWITCH, "1").current_dir(folder);
+    if rustix::process::geteuid().is_root() {
+        tool.uid(65_534);
+    }
+    let out = tool.output().unwrap();
+    assert_eq!(out.status.code(), Some(1), "{}", text(&out.stderr));
+    let right = "cloud-test: out.bin: exists and is write-protected: remove the protection (chmod u+w), or choose another name";
+    assert!(text(&out.stderr).starts_with(right), "{}", text(&out.stderr));
+    assert_eq!(fs::read(&path).unwrap(), b"precious");
 }
 
 fn a_replaced_file_keeps_its_mode(folder: &Path) {

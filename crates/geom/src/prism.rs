@@ -93,6 +93,13 @@ impl Prism {
         side.min(ends[0]).min(ends[1])
     }
 
+    /// The lowest and the highest corner [m].
+    pub(crate) fn bounds(&self) -> (Vec3, Vec3) {
+        let place = |q: &[f64; 2]| self.origin + self.axes[0] * q[0] + self.axes[1] * q[1];
+        let corners = self.polygon.iter().map(place).flat_map(|p| [p, p + self.extrusion]);
+        corners.fold((self.origin, self.origin), |(low, high), p| (low.inf(&p), high.sup(&p)))
+    }
+
     /// Whether `p` [m] is inside (even-odd rule for a polygon that crosses itself).
     pub fn contains(&self, p: &Vec3) -> bool {
         let from = p - self.origin;

@@ -16,6 +16,7 @@ use crate::types::{Types, law};
 use crate::wall;
 use dem::setup::Setup;
 use geom::Vec3;
+use record::name::lammps_comment;
 use run::Schedule;
 use scene::Scene;
 use std::fmt::Write as _;
@@ -239,7 +240,7 @@ fn pairs(
             let elastic = wall::elastic(setup, a.material, b.material);
             let names = [a, b].map(|t| &setup.materials[t.material as usize].name[..]);
             match coefficients(law, elastic, Types::meeting(setup, [a, b]), target, bent) {
-                Ok(words) => lines.push((format!("{i} {j}"), words, names.join("–"))),
+                Ok(words) => lines.push((format!("{i} {j}"), words, lammps_comment(&names.join("–")))),
                 Err(refusal) => refused.push(refusal),
             }
         }

@@ -4,6 +4,7 @@ use crate::arrivals::Arrival;
 use crate::clumps;
 use crate::deck::Source;
 use crate::files::{BODIES, BONDS, DATA, OF_BODIES};
+use record::name::lammps_comment;
 use std::path::Path;
 
 /// Its commands.
@@ -38,12 +39,13 @@ pub fn commands(Source { scene, setup, schedule, arrivals, bonds, .. }: &Source)
     };
     let skin = setup.skin.unwrap_or(0.4 * smallest);
     format!(
-        "# {name}, written by dem-lammps: SI units; forces are sampled at instants.\n\
+        "# {}, written by dem-lammps: SI units; forces are sampled at instants.\n\
          units si\natom_style {atoms}\nboundary {x} {y} {z}\nnewton off\ncomm_modify vel yes{reach}\n\
          variable state index none # or a state that was kept, to go on from it\n\
          if \"${{state}} == none\" then{fresh} \"variable first index yes\" else{resumed} \"variable first index no\"\n\
          neighbor {skin:?} bin\nneigh_modify delay 0 every 1 check yes\ntimestep {:?}\n\
          variable t equal step*dt\n\n# contacts: overlap, dashpot, friction\npair_style granular\n",
+        lammps_comment(&name),
         schedule.dt
     )
 }

@@ -7,6 +7,7 @@ use crate::types::{Kind, Types, law};
 use dem::effects::Elastic;
 use dem::setup::{Setup, Wall, WallShape};
 use geom::{Plane, Vec3};
+use record::name::lammps_comment;
 use std::fmt::Write;
 
 /// Three numbers, as LAMMPS reads them.
@@ -73,7 +74,8 @@ fn plane(
     (index, wall, plane): (usize, &Wall, &Plane),
     bent: &mut Vec<Refusal>,
 ) -> Result<String, Refusal> {
-    let mut text = format!("\n# wall '{}': a plane; grains are on the side of its normal\n", wall.name);
+    let name = lammps_comment(&wall.name);
+    let mut text = format!("\n# wall '{name}': a plane; grains are on the side of its normal\n");
     let region =
         format!("region wall{index} plane {} {} units box", three(&plane.point), three(&plane.normal));
     match Movement::of_plane(wall, plane)? {
@@ -132,7 +134,7 @@ fn spheres(types: &Types, (index, wall): (usize, &Wall), still: &mut Vec<usize>)
     let list: Vec<String> = numbers.iter().map(usize::to_string).collect();
     Ok(format!(
         "\n# wall '{}': spheres that move; their mass makes m* that of the grain\n{}group wall{index} type {}\nfix wall{index} wall{index} move {} units box\n",
-        wall.name,
+        lammps_comment(&wall.name),
         moves.0,
         list.join(" "),
         moves.1

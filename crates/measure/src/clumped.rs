@@ -44,6 +44,14 @@ impl Frame {
         self.clumped.as_deref().unwrap_or(self)
     }
 
+    /// Centre [m] of the grain that each row belongs to: of the ball, or the centre of mass of its clump.
+    pub fn grain_centres(&self) -> Vec<Vec3> {
+        let grains = self.grains();
+        let centres: HashMap<u64, &Vec3> = grains.id.iter().copied().zip(&grains.position).collect();
+        let rows = self.body().into_iter().zip(&self.position);
+        rows.map(|(body, own)| **centres.get(&body).unwrap_or(&own)).collect()
+    }
+
     /// Volume of row `row` over that of its ball [–]: spheres of a clump overlap.
     pub fn share(&self, row: usize) -> f64 {
         self.shares.get(row).copied().unwrap_or(1.0)

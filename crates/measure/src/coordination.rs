@@ -26,11 +26,11 @@ pub struct Coordination {
 }
 
 impl Coordination {
-    /// From positions and radii, with the shortest ways of a periodic run.
-    pub fn of_frame(run: &Run, frame: &Frame) -> Coordination {
+    /// From positions and radii, with the shortest ways of a periodic box.
+    pub fn of_frame(frame: &Frame) -> Coordination {
         let (of, count) = numbered(frame);
         let mut of_grains = vec![0; count];
-        let pairs = touching(run, frame).into_iter().map(|(a, b)| (of[a].min(of[b]), of[a].max(of[b])));
+        let pairs = touching(frame).into_iter().map(|(a, b)| (of[a].min(of[b]), of[a].max(of[b])));
         let pairs: BTreeSet<(usize, usize)> = pairs.filter(|(a, b)| a != b).collect();
         for (a, b) in pairs {
             of_grains[a] += 1;
@@ -126,10 +126,10 @@ fn numbered(frame: &Frame) -> (Vec<usize>, usize) {
 }
 
 /// Pairs of spheres (rows of the frame) that overlap.
-pub fn touching(run: &Run, frame: &Frame) -> Vec<(usize, usize)> {
+pub fn touching(frame: &Frame) -> Vec<(usize, usize)> {
     let largest = frame.radius.iter().copied().fold(0.0, f64::max);
     let (mut positions, mut rows) = (frame.position.clone(), (0..frame.len()).collect::<Vec<_>>());
-    for (axis, period) in run.periodic.iter().enumerate() {
+    for (axis, period) in frame.periodic.range.iter().enumerate() {
         let Some((low, high)) = period else { continue };
         for k in 0..positions.len() {
             for (near, shift) in
@@ -183,13 +183,13 @@ impl ContactNumbers {
         ContactNumbers { which, waiting: None, early: None, recorded: false, last: None, frames: 0 }
     }
 
-    fn count(&mut self, run: &Run, frame: &Frame, contacts: Option<&Contacts>, rows: &mut Vec<Row>) {
+    fn count(&mut self, frame: &Frame, contacts: Option<&Contacts>, rows: &mut Vec<Row>) {
         if frame.is_empty() {
             return;
         }
         let c = match contacts {
             Some(contacts) => Coordination::of_contacts(frame, contacts),
-            None => Coordination::of_frame(run, frame),
+            None => Coordination::of_frame(frame),
         };
         self.recorded |= contacts.is_some();
         rows.push(row(frame, &c));
@@ -197,9 +197,9 @@ impl ContactNumbers {
     }
 
     /// The frame that waits is measured, or stays where only the last one is wanted.
-    fn settle(&mut self, run: &Run, contacts: Option<&Contacts>, rows: &mut Vec<Row>) {
+    fn settle(&mut self, contacts: Option<&Contacts>, rows: &mut Vec<Row>) {
         if let Some(frame) = self.waiting.take() {
-            self.count(run, &frame, contacts, rows);
+            self.count(&frame, contacts, rows);
         }
     }
 }
@@ -235,20 +235,20 @@ impl Observer for ContactNumbers {
                     return Ok(());
                 }
                 if series {
-                    self.settle(run, None, rows);
+                    self.settle(None, rows);
                 }
                 // Contacts may also come before their frame.
                 let own = self.early.take().filter(|c| c.time == frame.time);
                 self.waiting = Some(frame);
                 match own {
-                    Some(contacts) if series => self.settle(run, Some(&contacts), rows),
+                    Some(contacts) if series => self.settle(Some(&contacts), rows),
                     own => self.early = own,
                 }
             }
             RunMessage::Contacts(contacts) => {
                 let fits = self.waiting.as_ref().is_some_and(|f| f.time == contacts.time);
                 if fits && series {
-                    self.settle(run, Some(&contacts), rows);
+                    self.settle(Some(&contacts), rows);
                 } else if fits || self.which.holds(run, contacts.time) {
                     self.early = Some(contacts);
                 }
@@ -258,10 +258,10 @@ impl Observer for ContactNumbers {
         Ok(())
     }
 
-    fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+    fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
         let time = self.waiting.as_ref().map(|f| f.time);
         let own = self.early.take().filter(|c| Some(c.time) == time);
-        self.settle(run, own.as_ref(), rows);
+        self.settle(own.as_ref(), rows);
         let none = || if self.frames == 0 { NO_FRAMES } else { FEW };
         let (c, time) = self.last.as_ref().ok_or_else(none)?;
         let (mechanical, rattlers) = c.mechanical();

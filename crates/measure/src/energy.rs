@@ -1,10 +1,11 @@
 //! The energy ledger of a run, and how well it closes.
 //!
 //! ```text
-//! closure error = Σ Δ balance       balance = kinetic + potential + elastic + dissipated − work of walls − integration
+//! balance = Σ terms − 2 (walls + entered + integration)        all terms count with +, these three with −
+//! closure error = Σ Δ balance
 //! ```
 //!
-//! over the intervals between ledgers; there the balance is constant to rounding. Ledgers without that term leave out what particles bring along that
+//! over the intervals between ledgers; there the balance is constant to rounding. A run whose balance is not this sum is reported. Ledgers without that term leave out what particles bring along that
 //! come and go, too: of those only intervals in which no grain enters or leaves count (by the ids of the frames). The energy that the finite time step created is the term `integration`, the error of the run's energy. Both are given
 //! also relative to the energy exchanged so far: the largest change of any other term.
 
@@ -12,7 +13,7 @@ use crate::observer::Observer;
 use crate::run::Ledger;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
-use geom::counted;
+use geom::{Shown, counted};
 
 /// Terms in this order; what a run has besides follows by name.
 const ORDER: [&str; 8] =
@@ -20,11 +21,30 @@ const ORDER: [&str; 8] =
 
 /// What the finite time step made.
 const MADE: &str = "integration";
+/// What was brought: these terms count with − in the balance, all others with +.
+pub const BROUGHT: [&str; 3] = ["walls", "entered", MADE];
+/// Rounding of the sum, relative to its largest term [–].
+const ROUNDING: f64 = 1e-12;
 /// What is under way at the instant of the ledger.
 const HALF: &str = "half_step";
 
 /// Number of grains, sum of their ids and of the squares of these: other grains give others.
 type Grains = (usize, u64, u64);
+
+impl Ledger {
+    /// The sum of its terms, each with its sign [J].
+    pub fn sum(&self) -> f64 {
+        let signed =
+            |(name, value): (&String, &f64)| if BROUGHT.contains(&name.as_str()) { -value } else { *value };
+        self.terms.iter().map(signed).sum()
+    }
+
+    /// Whether the balance that the run holds is the sum of its terms.
+    fn adds_up(&self) -> bool {
+        let largest = self.terms.values().fold(self.balance.abs(), |most, value| most.max(value.abs()));
+        (self.sum() - self.balance).abs() <= ROUNDING * largest * self.terms.len() as f64
+    }
+}
 
 /// Reads the ledger.
 pub struct Energy {
@@ -42,6 +62,8 @@ pub struct Energy {
     now: Grains,
     /// Intervals in which grains entered or left.
     left_out: u64,
+    /// Time [s], balance and sum of terms [J] of the first ledger in which they differ.
+    wrong: Option<[f64; 3]>,
 }
 
 impl Energy {
@@ -59,10 +81,14 @@ impl Energy {
             before: None,
             now: Grains::default(),
             left_out: 0,
+            wrong: None,
         }
     }
 
     fn row(&mut self, ledger: Ledger) -> Row {
+        if !ledger.adds_up() {
+            self.wrong.get_or_insert([ledger.time, ledger.balance, ledger.sum()]);
+        }
         if self.first.is_none() {
             self.terms.retain(|term| ledger.terms.contains_key(term));
             self.terms.extend(ledger.terms.keys().filter(|k| !ORDER.contains(&k.as_str())).cloned());
@@ -139,7 +165,12 @@ impl Observer for Energy {
         };
         let left_out = counted(self.left_out, "interval");
         let note = format!("{left_out} left out of the closure: grains entered or left");
-        Ok(if self.left_out > 0 { summary.note(note) } else { summary })
+        let summary = if self.left_out > 0 { summary.note(note) } else { summary };
+        let wrong = self.wrong.map(|[time, balance, sum]| {
+            let [time, balance, sum] = [time, balance, sum].map(Shown);
+            format!("at {time} s the balance of the run is {balance} J, and its terms add up to {sum} J: write the run again")
+        });
+        Ok(wrong.into_iter().fold(summary, Summary::note))
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {
@@ -152,5 +183,32 @@ impl Observer for Energy {
             &[("", error)],
             rows,
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    fn ledger(balance: f64) -> Ledger {
+        let terms =
+            [("translation", 5.0), ("sliding", 2.0), ("walls", 1.5), ("entered", 0.25), ("integration", 0.5)];
+        let terms =
+            terms.into_iter().map(|(name, value)| (name.to_owned(), value)).collect::<BTreeMap<_, _>>();
+        Ledger { time: 0.5, terms, balance }
+    }
+
+    #[test]
+    fn the_balance_is_the_sum_of_its_terms_with_their_signs() {
+        assert_eq!(ledger(0.0).sum(), 5.0 + 2.0 - 1.5 - 0.25 - 0.5);
+        let notes = |balance: f64| {
+            let (mut energy, mut rows) = (Energy::new((f64::NEG_INFINITY, f64::INFINITY)), Vec::new());
+            energy.observe(&Run::default(), RunMessage::Ledger(ledger(balance)), &mut rows).unwrap();
+            energy.end(&Run::default(), &mut rows).unwrap().notes
+        };
+        assert!(notes(4.75).is_empty());
+        let wrong = notes(9.25);
+        assert!(wrong.len() == 1 && wrong[0].contains("9.25 J") && wrong[0].contains("4.75 J"), "{wrong:?}");
     }
 }

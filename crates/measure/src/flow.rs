@@ -3,10 +3,11 @@
 //! If an outlet of the run lies in the plane, its recorded crossings are counted, exact in time. Otherwise a grain passes
 //! when its centre is on the other side in the next frame; when and where follows from its path between the frames
 //! (see [`crate::path`]). Grains that come or go between two frames (inlets, outlets) cannot be judged there: those that
-//! would have passed the plane at constant velocity are counted as `unjudged`.
+//! would have passed the plane at constant velocity are counted as `unjudged`. In a periodic box a grain passes the plane as often as its way does, by
+//! any number of periods.
 
 use crate::observer::{NO_FRAMES, Observer, SLACK};
-use crate::path::PreviousFrame;
+use crate::path::{PreviousFrame, unsure_note};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Frame, MeasureError, Run, RunMessage};
@@ -88,6 +89,8 @@ pub struct Flow {
     total: Span,
     flows: Vec<f64>,
     unjudged: u64,
+    /// Ways through periodic faces that may be wrong by a period.
+    unsure: u64,
 }
 
 impl Flow {
@@ -116,6 +119,7 @@ impl Flow {
             total: Span::default(),
             flows: Vec::new(),
             unjudged: 0,
+            unsure: 0,
         })
     }
 
@@ -131,8 +135,8 @@ impl Flow {
         Some((found, run.outlets[found].normal.dot(&plane.normal) > 0.0))
     }
 
-    fn wanted(&self, position: &Vec3) -> bool {
-        self.options.within.as_ref().is_none_or(|shape| shape.contains(position))
+    fn wanted(&self, run: &Run, position: &Vec3) -> bool {
+        self.options.within.as_ref().is_none_or(|shape| run.holds(shape, position))
     }
 
     fn add(&mut self, time: f64, forward: bool, mass: f64) {
@@ -151,22 +155,16 @@ impl Flow {
         self.unjudged += self.before.vanished(frame).filter(passing).count() as u64;
         let mut found = Vec::new();
         for (row, mass) in masses.iter().enumerate() {
-            let Some((path, other)) = self.before.paths(run, frame, row) else {
+            let Some(passage) = self.before.passage(frame, row) else {
                 let position = frame.position[row];
                 self.unjudged +=
                     u64::from(beyond(&position) != beyond(&(position - frame.velocity[row] * length)));
                 continue;
             };
-            for path in [Some(path), other].into_iter().flatten() {
-                let (start, end) = (beyond(&path.at(0.0)), beyond(&path.at(1.0)));
-                if start != end {
-                    let (time, position) = path.change(beyond);
-                    // Of the two images of a way through a periodic face, the one that is in the box then.
-                    if (other.is_none() || run.in_box(&position)) && self.wanted(&position) {
-                        found.push((time, end, *mass));
-                    }
-                }
-            }
+            self.unsure += u64::from(!passage.sure);
+            let passed = passage.through(&plane).into_iter();
+            let wanted = passed.filter(|(_, position, _)| self.wanted(run, position));
+            found.extend(wanted.map(|(time, _, along)| (time, along, *mass)));
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         found.into_iter().for_each(|(time, forward, mass)| self.add(time, forward, mass));
@@ -263,7 +261,8 @@ impl Observer for Flow {
             RunMessage::Frame(frame) => self.frame(run, frame.grains(), rows)?,
             RunMessage::Crossings(crossings) => {
                 if let Some((outlet, along)) = self.outlet_of(run) {
-                    let own = crossings.iter().filter(|p| p.outlet == outlet && self.wanted(&p.position));
+                    let own =
+                        crossings.iter().filter(|p| p.outlet == outlet && self.wanted(run, &p.position));
                     for p in own.copied().collect::<Vec<_>>() {
                         if p.mass.is_nan() {
                             return Err(MeasureError::Density { index: p.material });
@@ -312,12 +311,38 @@ impl Observer for Flow {
             Shown(high)
         );
         let summary = if unreached { summary.note(away) } else { summary };
-        Ok(if self.unjudged > 0 { summary.note(unjudged) } else { summary })
+        let summary = if self.unjudged > 0 { summary.note(unjudged) } else { summary };
+        Ok(unsure_note(self.unsure).into_iter().fold(summary, Summary::note))
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {
         Chart::new("Flow through the plane")
             .columns(("time [s]", 1), "mass flow [kg/s]", &[("", 6)], rows)
             .columns(("time [s]", 1), "mass passed [kg]", &[("", 8)], rows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::path::run_of_five;
+
+    /// Each passes x = 0.05 m once a period, in the direction in which it moves.
+    #[test]
+    fn grains_that_go_round_a_cell_pass_a_plane_each_time() {
+        let plane = Plane::new(Vec3::new(0.05, 0.0, 0.0), Vec3::x()).unwrap();
+        let between = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut flow = Flow::new(FlowOptions { plane, within: None, span: None, between }).unwrap();
+        let mut rows = Vec::new();
+        run_of_five(|run, frame| flow.observe(run, RunMessage::Frame(frame), &mut rows).unwrap());
+        let summary = flow.end(&Run::default(), &mut rows).unwrap();
+        // In 0.48 s each goes 4.8 periods: those within 0.08 m before the plane pass it five times.
+        let right: f64 = [0.01, 0.03, 0.055, 0.07, 0.09]
+            .map(|x: f64| ((x + 0.48 - 0.05) / 0.1).floor() - ((x - 0.05) / 0.1).floor())
+            .iter()
+            .sum();
+        assert_eq!([summary.get("forward"), summary.get("backward")], [Some(right), Some(0.0)]);
+        assert!((summary.get("mass_flow").unwrap() - 2.0 * right / 0.48).abs() < 1e-9);
+        assert!(!summary.notes.iter().any(|note| note.contains("period")), "{:?}", summary.notes);
     }
 }

@@ -1,7 +1,8 @@
 //! Columns of a run at one time: grains, their contacts, grains that passed an outlet.
 
+use crate::MeasureError;
+use crate::periodic::PeriodicBox;
 use crate::table::Columns;
-use crate::{MeasureError, Run};
 use geom::Vec3;
 use record::column::{
     FIRST, FORCE, ID, KIND, MASS, MATERIAL, NORMAL, OUTLET, OVERLAP, POSITION, RADIUS, SECOND, TIME,
@@ -28,6 +29,8 @@ pub struct Frame {
     pub material: Vec<u16>,
     /// Masses [kg]; NaN where the material has no density.
     pub mass: Vec<f64>,
+    /// The periodic box at this time.
+    pub periodic: PeriodicBox,
     /// All columns of the message.
     pub table: Table,
     /// Volume of each over that of its ball [–]; empty without clumps.
@@ -77,6 +80,7 @@ impl Frame {
             radius: chosen(&self.radius, rows),
             material: chosen(&self.material, rows),
             mass: chosen(&self.mass, rows),
+            periodic: self.periodic,
             table: self.table.select(rows),
             shares: chosen(&self.shares, rows),
             clumped: None,
@@ -84,26 +88,18 @@ impl Frame {
     }
 
     /// With the images of grains that reach through a periodic face, so that all of each ball is in the periodic box.
-    pub fn with_images(&self, run: &Run) -> Cow<'_, Frame> {
-        if run.periodic.iter().all(Option::is_none) {
+    pub fn with_images(&self) -> Cow<'_, Frame> {
+        if self.periodic.is_open() {
             return Cow::Borrowed(self);
         }
-        let (low, high) = run.room();
+        let room = self.periodic.corners();
         let (mut rows, mut shifts): (Vec<u32>, Vec<Vec3>) =
             ((0..self.len() as u32).collect(), vec![Vec3::zeros(); self.len()]);
         for (row, (p, r)) in (0..).zip(self.position.iter().zip(&self.radius)) {
-            let first = shifts.len();
-            for axis in 0..3 {
-                let (low, high) = (low[axis], high[axis]);
-                // Also of the images through faces of axes before.
-                for shift in [vec![Vec3::zeros()], shifts[first..].to_vec()].concat() {
-                    for (reaches, by) in [(p[axis] - r < low, high - low), (p[axis] + r > high, low - high)] {
-                        if reaches {
-                            rows.push(row);
-                            shifts.push(shift + by * Vec3::ith(axis, 1.0));
-                        }
-                    }
-                }
+            let images = self.periodic.shifts((p.add_scalar(-r), p.add_scalar(*r)), room);
+            for shift in images.into_iter().filter(|shift| *shift != Vec3::zeros()) {
+                rows.push(row);
+                shifts.push(shift);
             }
         }
         let mut all = self.rows(&rows);

@@ -60,7 +60,7 @@ impl Moment {
             return Some((x, v));
         }
         let (y, w) = *self.states.get(&pair.1)?;
-        Some((run.way(&y, &x), v - w))
+        Some((run.periodic.way(&y, &x), v - w))
     }
 }
 
@@ -97,7 +97,7 @@ impl Impacts {
         let [before, after] = &self.moments;
         let (before, after) = (before.as_ref()?, after.as_ref()?);
         let (a, b) = (before.between(run, pair)?, after.between(run, pair)?);
-        let grown = -run.way(&a.0, &b.0).dot(normal);
+        let grown = -run.periodic.way(&a.0, &b.0).dot(normal);
         let ends = if now { [overlap - grown, overlap] } else { [overlap, overlap + grown] };
         let h = after.time - before.time;
         let ways = [-a.1.dot(normal) * h, -b.1.dot(normal) * h];

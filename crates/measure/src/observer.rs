@@ -117,7 +117,7 @@ impl Within {
     }
 
     fn of(&mut self, frame: &Frame) -> Frame {
-        let inside = frame.only(|row| self.shape.contains(&frame.position[row]));
+        let inside = frame.only(|row| frame.periodic.holds(&self.shape, &frame.position[row]));
         self.found |= !inside.is_empty();
         let (low, high) = self.bounds;
         self.bounds = frame.position.iter().fold((low, high), |(low, high), p| (low.inf(p), high.sup(p)));

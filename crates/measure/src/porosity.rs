@@ -2,8 +2,7 @@
 //!
 //! Each ball counts with its part in the shape (see [`crate::region`] for the accuracy). The lens that two
 //! overlapping grains share would count twice; lenses whose middle lies in the shape are subtracted. The spheres of a rigid clump count with
-//! their shares of its volume ([`crate::clumped`]). Of a box, ball or cylinder that lies in the periodic box,
-//! the part of a grain beyond a face counts where its image is.
+//! their shares of its volume ([`crate::clumped`]). In a periodic box every image of a grain counts ([`crate::periodic`]).
 
 use crate::coordination::touching;
 use crate::observer::OfFrame;
@@ -11,7 +10,6 @@ use crate::region::Region;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{Frame, MeasureError, Run, ball};
 use rayon::prelude::*;
-use std::borrow::Cow;
 use std::collections::HashSet;
 
 /// How full a shape is.
@@ -33,25 +31,24 @@ pub struct Filling {
 ///
 /// # Errors
 /// A shape without end or without room.
-pub fn filling(run: &Run, frame: &Frame, region: &Region) -> Result<Filling, MeasureError> {
+pub fn filling(frame: &Frame, region: &Region) -> Result<Filling, MeasureError> {
     let volume = region.room()?;
-    let in_box = region.lies_in_box(run);
-    let all = if in_box { frame.with_images(run) } else { Cow::Borrowed(frame) };
-    let parts: Vec<_> = all.position.par_iter().zip(&all.radius).map(|(p, r)| region.part(p, *r)).collect();
+    let periodic = &frame.periodic;
+    region.fits(periodic)?;
+    let rows = frame.position.par_iter().zip(&frame.radius);
+    let parts: Vec<_> = rows.map(|(p, r)| region.part_of_images(periodic, p, *r)).collect();
     let body = frame.body();
     let lens = |(a, b): &(usize, usize)| {
-        let way = run.way(&frame.position[*a], &frame.position[*b]);
+        let way = periodic.way(&frame.position[*a], &frame.position[*b]);
         let (r, s, d) = (frame.radius[*a], frame.radius[*b], way.norm());
         let middle = frame.position[*a] + way * (0.5 * (d + r - s) / d);
-        let middle = if in_box { run.wrapped(&middle) } else { middle };
-        if d > 0.0 && region.shape.contains(&middle) { ball::lens(d, r, s) } else { 0.0 }
+        if d > 0.0 { region.images(periodic, &middle) as f64 * ball::lens(d, r, s) } else { 0.0 }
     };
     let apart = |(a, b): &&(usize, usize)| body[*a] != body[*b];
-    let overlaps: f64 = touching(run, frame).iter().filter(apart).map(lens).sum();
-    let bodies = all.body();
-    let inside = bodies.iter().zip(&parts).filter(|(_, p)| p.volume > 0.0);
+    let overlaps: f64 = touching(frame).iter().filter(apart).map(lens).sum();
+    let inside = body.iter().zip(&parts).filter(|(_, p)| p.volume > 0.0);
     Ok(Filling {
-        solid: parts.iter().enumerate().map(|(row, p)| p.volume * all.share(row)).sum::<f64>() - overlaps,
+        solid: parts.iter().enumerate().map(|(row, p)| p.volume * frame.share(row)).sum::<f64>() - overlaps,
         overlaps,
         error: parts.iter().map(|p| p.error * p.error).sum::<f64>().sqrt(),
         volume,
@@ -92,8 +89,8 @@ impl OfFrame for Porosity {
         ])
     }
 
-    fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
-        let f = filling(run, frame, &self.region)?;
+    fn measure(&mut self, _: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
+        let f = filling(frame, &self.region)?;
         self.last = Some(f);
         self.most = self.most.max(f.grains);
         if !frame.is_empty() {
@@ -121,5 +118,40 @@ impl OfFrame for Porosity {
 
     fn chart(&self, rows: &[Row]) -> Chart {
         Chart::new("Porosity").columns(("time [s]", 0), "porosity [1]", &[("", 1)], rows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::periodic::PeriodicBox;
+    use geom::Vec3;
+
+    /// One ball in a cell: the porosity is the same in the cell, in one that is moved, in eight of them, and around a corner of the cell.
+    #[test]
+    fn images_fill_a_shape_beyond_the_faces() {
+        let periodic = PeriodicBox { range: [Some((0.0, 1.0)), Some((0.0, 1.0)), Some((0.0, 1.0))] };
+        let frame = Frame {
+            id: vec![0],
+            position: vec![Vec3::new(0.1, 0.9, 0.3)],
+            radius: vec![0.25],
+            material: vec![0],
+            periodic,
+            ..Frame::default()
+        };
+        let right = ball::volume(0.25);
+        for (shape, volume) in [
+            ("box:0,0,0,1,1,1", 1.0),
+            ("box:-0.4,0.2,0.3,0.6,1.2,1.3", 1.0),
+            ("box:-0.5,-0.5,-0.5,1.5,1.5,1.5", 8.0),
+        ] {
+            let found = filling(&frame, &Region::new(shape.parse().unwrap(), 0.0)).unwrap();
+            assert!((found.solid / volume / right - 1.0).abs() < 1e-12, "{shape}: {found:?}");
+        }
+        // A ball around the grain's image at the other side of the cell holds all of it.
+        let around = Region::new("sphere:1.1,-0.1,0.3,0.3".parse().unwrap(), 0.0);
+        assert!((filling(&frame, &around).unwrap().solid / right - 1.0).abs() < 1e-12);
+        let huge = Region::new("box:-50,-50,-50,50,50,50".parse().unwrap(), 0.0);
+        assert!(matches!(filling(&frame, &huge), Err(MeasureError::Setting { .. })));
     }
 }

@@ -187,7 +187,7 @@ mod tests {
             mass: vec![5.0],
             ..Frame::default()
         };
-        grid.add(&frame, &crate::Run::default().room(), &[]).unwrap();
+        grid.add(&frame, &crate::periodic::PeriodicBox::default().corners(), &[]).unwrap();
         for row in grid.rows() {
             assert!((row[4] - ball::volume(0.3) / 4.0).abs() < 1e-15, "{row:?}");
             let expected = [0.25, 1.0, 2.0, -2.0, 3.0, 0.0, 0.6, 0.6];

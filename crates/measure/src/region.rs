@@ -4,7 +4,8 @@
 //! that fill the ball evenly, where 64 points on its surface are not all on one side; the reported error is
 //! that of random points, V √(p (1 − p)/1000); evenly spread points stay below it.
 
-use crate::{MeasureError, Run, ball, cylinder};
+use crate::periodic::{MOST_IMAGES, PeriodicBox};
+use crate::{MeasureError, ball, chord, cylinder};
 use geom::{Shape, Vec3, shape::Solid};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -45,18 +46,6 @@ impl Region {
         Region { shape, volume: own }
     }
 
-    /// Whether it lies in the periodic box, where the images of grains then count; of cones, prisms and meshes that is not known.
-    pub fn lies_in_box(&self, run: &Run) -> bool {
-        let (low, high) = match &self.shape.solid {
-            _ if self.shape.outside => return false,
-            Solid::Box(low, high) => (*low, *high),
-            Solid::Sphere(middle, r) => (middle.add_scalar(-r), middle.add_scalar(*r)),
-            Solid::Cylinder(a, b, r) => (a.inf(b).add_scalar(-r), a.sup(b).add_scalar(*r)),
-            _ => return false,
-        };
-        run.in_box(&low) && run.in_box(&high)
-    }
-
     /// The volume [m³] of a region that has an end and room inside.
     ///
     /// # Errors
@@ -67,6 +56,55 @@ impl Region {
             v if v > 0.0 => Ok(v),
             volume => Err(MeasureError::EmptyShape { volume }),
         }
+    }
+
+    /// How much of a ball and its images in a periodic box lies in the region, which has an end.
+    pub fn part_of_images(&self, periodic: &PeriodicBox, centre: &Vec3, radius: f64) -> PartialVolume {
+        if periodic.is_open() {
+            return self.part(centre, radius);
+        }
+        let ball = (centre.add_scalar(-radius), centre.add_scalar(radius));
+        let parts = periodic.shifts(ball, self.shape.solid.bounds());
+        let parts = parts.into_iter().map(|shift| self.part(&(centre + shift), radius));
+        parts.fold(PartialVolume::default(), |sum, part| PartialVolume {
+            volume: sum.volume + part.volume,
+            error: sum.error.hypot(part.error),
+        })
+    }
+
+    /// How many images of a point [m] lie in the region, which has an end.
+    pub fn images(&self, periodic: &PeriodicBox, point: &Vec3) -> usize {
+        let shifts = periodic.shifts((*point, *point), self.shape.solid.bounds());
+        shifts.iter().filter(|shift| self.shape.contains(&(point + *shift))).count()
+    }
+
+    /// The share of a way and its images that lies in the region, which has an end [–].
+    pub fn share(&self, periodic: &PeriodicBox, from: &Vec3, way: &Vec3) -> f64 {
+        let (to, bounds) = (from + way, self.shape.solid.bounds());
+        let shifts = periodic.shifts((from.inf(&to), from.sup(&to)), bounds);
+        let pieces = shifts.iter().flat_map(|shift| chord::inside(&self.shape.solid, &(from + shift), way));
+        pieces.map(|[a, b]| b - a).sum()
+    }
+
+    /// Refuses a region that is far larger than the periodic box: each image of each grain is looked at.
+    ///
+    /// # Errors
+    /// More than [`MOST_IMAGES`] periods.
+    pub fn fits(&self, periodic: &PeriodicBox) -> Result<(), MeasureError> {
+        let (low, high) = self.shape.solid.bounds();
+        let lengths = periodic.lengths();
+        let count = |k: usize| if lengths[k] > 0.0 { (high[k] - low[k]) / lengths[k] + 1.0 } else { 1.0 };
+        let periods: f64 = (0..3).map(count).product();
+        if periods <= MOST_IMAGES as f64 {
+            return Ok(());
+        }
+        let cure = "give a smaller SHAPE: one period along each periodic axis holds every grain once";
+        Err(MeasureError::Setting {
+            what: "periods of the domain that SHAPE spans",
+            value: periods,
+            unit: "of 1000 at most",
+            cure,
+        })
     }
 
     /// How much of a ball lies in the region.

@@ -3,16 +3,17 @@
 use crate::bonds::Crack;
 use crate::frame::{Contacts, Crossing, Frame};
 use crate::observer::SLACK;
+use crate::periodic::PeriodicBox;
 use crate::settling::Settled;
 use crate::{Bonds, MeasureError, WallForces, table::Columns};
-use geom::{Plane, Vec3};
-use record::DomainRecord;
+use geom::{Plane, Shape, Vec3};
 use record::column::{POSITION, RADIUS, WALL};
 use record::metadata::{MATERIALS, OUTLETS, SCENE, TIME};
 use record::topic::{
     BODIES, BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES,
     WALLS,
 };
+use record::{DomainRecord, Ending};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use stream::{Table, mcap::Event};
@@ -77,16 +78,18 @@ pub struct Run {
     pub up: Option<Vec3>,
     /// Acceleration of free fall [m/s²]; 0 where it is not known.
     pub gravity: f64,
-    /// Lowest and highest coordinate [m] of each axis that is periodic.
-    pub periodic: [Option<(f64, f64)>; 3],
+    /// The periodic box as it is now.
+    pub periodic: PeriodicBox,
     /// Names of the walls.
     pub walls: Vec<String>,
     /// Its wall spheres.
     pub spheres: WallSpheres,
     /// Changes whenever `spheres` does.
     pub spheres_seen: u64,
+    /// Whether it came to its end.
+    pub ending: Ending,
     /// A frame with clumps, whose message comes next.
-    waiting: Option<Frame>,
+    pub(crate) waiting: Option<Frame>,
 }
 
 impl Run {
@@ -95,6 +98,7 @@ impl Run {
     /// # Errors
     /// Messages that lack columns or hold numbers that cannot be.
     pub fn take(&mut self, event: Event) -> Result<Option<RunMessage>, MeasureError> {
+        self.ending.take(&event);
         let seconds = |ns: u64| ns as f64 / 1e9;
         Ok(match event {
             Event::Metadata { name, map } => {
@@ -115,7 +119,7 @@ impl Run {
                 let time = seconds(time_ns);
                 let wrong = |why: String| MeasureError::Message { topic: DOMAIN.to_owned(), time, why };
                 let record = DomainRecord::read(&data).map_err(wrong)?;
-                self.periodic = record.range();
+                self.periodic.range = record.range();
                 Some(RunMessage::Domain(record))
             }
             Event::Bytes { topic, data, .. } if topic == SURFACES => {
@@ -129,7 +133,7 @@ impl Run {
     fn points(&mut self, topic: &str, time: f64, table: Table) -> Result<Option<RunMessage>, MeasureError> {
         Ok(match topic {
             PARTICLES => {
-                let frame = Frame::new(time, table, &self.densities)?;
+                let frame = Frame { periodic: self.periodic, ..Frame::new(time, table, &self.densities)? };
                 if frame.has_members() {
                     self.waiting = Some(frame);
                     return Ok(None);
@@ -189,7 +193,7 @@ impl Run {
         let axes = domain.get("periodic").and_then(toml::Value::as_array);
         for axis in axes.into_iter().flatten().filter_map(toml::Value::as_str) {
             if let Some(k) = ["x", "y", "z"].iter().position(|name| *name == axis) {
-                self.periodic[k] = Some((low[k], high[k]));
+                self.periodic.range[k] = Some((low[k], high[k]));
             }
         }
     }
@@ -206,43 +210,9 @@ impl Run {
         from - slack <= time && time <= until + slack
     }
 
-    /// Whether a position [m] lies in the periodic box, where there is one; on its faces, too.
-    pub fn in_box(&self, position: &Vec3) -> bool {
-        self.periodic.iter().zip(position.iter()).all(|(period, x)| {
-            period.is_none_or(|(low, high)| {
-                let slack = 1e-9 * (high - low);
-                (low - slack..=high + slack).contains(x)
-            })
-        })
-    }
-
-    /// Lowest and highest corner of the periodic box [m], without end along other axes.
-    pub fn room(&self) -> (Vec3, Vec3) {
-        let end = |k: usize, of: fn((f64, f64)) -> f64, open: f64| self.periodic[k].map_or(open, of);
-        let corner = |of: fn((f64, f64)) -> f64, open: f64| Vec3::from([0, 1, 2].map(|k| end(k, of, open)));
-        (corner(|range| range.0, f64::NEG_INFINITY), corner(|range| range.1, f64::INFINITY))
-    }
-
-    /// The shortest way from `a` to `b` [m], through periodic faces where that is shorter.
-    pub fn way(&self, a: &Vec3, b: &Vec3) -> Vec3 {
-        let mut way = b - a;
-        for (axis, period) in self.periodic.iter().enumerate() {
-            if let Some((low, high)) = period {
-                way[axis] -= (high - low) * libm::round(way[axis] / (high - low));
-            }
-        }
-        way
-    }
-
-    /// A point, moved by periods into the box [m].
-    pub fn wrapped(&self, point: &Vec3) -> Vec3 {
-        let mut point = *point;
-        for (axis, period) in self.periodic.iter().enumerate() {
-            if let Some((low, high)) = period {
-                point[axis] -= (high - low) * ((point[axis] - low) / (high - low)).floor();
-            }
-        }
-        point
+    /// Whether a point or one of its images [m] lies in a shape, in the periodic box of now.
+    pub fn holds(&self, shape: &Shape, point: &Vec3) -> bool {
+        self.periodic.holds(shape, point)
     }
 }
 

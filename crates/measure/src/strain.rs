@@ -82,7 +82,7 @@ impl OfFrame for Strain {
 
     fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
         if self.start.is_empty() {
-            let held = |x: &Vec3| self.within.as_ref().is_none_or(|shape| shape.contains(x));
+            let held = |x: &Vec3| self.within.as_ref().is_none_or(|shape| run.holds(shape, x));
             let all = frame.id.iter().copied().zip(frame.position.iter().copied());
             self.start = all.filter(|(_, x)| held(x)).collect();
             if self.start.len() < FEWEST {
@@ -94,7 +94,7 @@ impl OfFrame for Strain {
         for (id, now) in frame.id.iter().zip(&frame.position) {
             if let Some(place) = self.start.get(id) {
                 places.push(*place);
-                moved.push(run.way(place, now));
+                moved.push(run.periodic.way(place, now));
             }
         }
         let Some(fit) = Fit::of(&places, &moved) else { return Ok(Vec::new()) };

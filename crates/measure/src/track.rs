@@ -3,8 +3,11 @@
 //! ```text
 //! way = |x − x_first|        from where the grain was first seen, in a straight line
 //! ```
+//!
+//! In a periodic box x counts the periods that the grain has passed ([`crate::path`]).
 
 use crate::observer::OfFrame;
+use crate::path::{Passage, unsure_note};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{Frame, MeasureError, Run};
 use geom::Vec3;
@@ -15,11 +18,43 @@ pub const MOST: usize = 1000;
 
 /// Follows grains by their ids.
 pub struct Track {
-    /// Each with its first and its last position [m], once it was seen.
-    grains: BTreeMap<u64, Option<[Vec3; 2]>>,
+    /// Each, once it was seen.
+    grains: BTreeMap<u64, Option<Followed>>,
     fastest: f64,
+    /// Ways through periodic faces that may be wrong by a period.
+    unsure: u64,
     /// Smallest and largest id of any grain.
     known: [u64; 2],
+}
+
+/// A grain that was seen.
+#[derive(Debug, Clone, Copy)]
+struct Followed {
+    /// Where it was first seen [m].
+    first: Vec3,
+    /// Time [s], position [m] and velocity [m/s] in the last frame that holds it.
+    time: f64,
+    state: (Vec3, Vec3),
+    /// Periods [m] that it has passed.
+    shift: Vec3,
+}
+
+impl Followed {
+    fn new(time: f64, state: (Vec3, Vec3)) -> Followed {
+        Followed { first: state.0, time, state, shift: Vec3::zeros() }
+    }
+
+    /// In the next frame, and whether the number of periods is sure.
+    fn next(self, frame: &Frame, state: (Vec3, Vec3)) -> (Followed, bool) {
+        let passage = Passage::new(&frame.periodic, [self.time, frame.time], self.state, state);
+        let shift = self.shift + passage.shift;
+        (Followed { time: frame.time, state, shift, ..self }, passage.sure)
+    }
+
+    /// How far it is from where it was first seen [m].
+    fn way(&self) -> f64 {
+        (self.state.0 + self.shift - self.first).norm()
+    }
 }
 
 impl Track {
@@ -34,7 +69,7 @@ impl Track {
             let value = grains.len() as f64;
             return Err(MeasureError::Setting { what: "number of grains", value, unit: "", cure });
         }
-        Ok(Track { grains, fastest: 0.0, known: [u64::MAX, 0] })
+        Ok(Track { grains, fastest: 0.0, unsure: 0, known: [u64::MAX, 0] })
     }
 }
 
@@ -56,10 +91,14 @@ impl OfFrame for Track {
         let mut found = Vec::new();
         for (id, row) in rows {
             let (x, v) = (frame.position[row], frame.velocity[row]);
-            let first = self.grains.get(&id).copied().flatten().map_or(x, |[first, _]| first);
-            self.grains.insert(id, Some([first, x]));
+            let (grain, sure) = match self.grains.get(&id).copied().flatten() {
+                Some(grain) => grain.next(frame, (x, v)),
+                None => (Followed::new(frame.time, (x, v)), true),
+            };
+            self.grains.insert(id, Some(grain));
+            self.unsure += u64::from(!sure);
             self.fastest = self.fastest.max(v.norm());
-            let way = (x - first).norm();
+            let way = grain.way();
             found.push(vec![frame.time, id as f64, x.x, x.y, x.z, way, v.x, v.y, v.z, v.norm()]);
         }
         Ok(found)
@@ -71,13 +110,14 @@ impl OfFrame for Track {
         if unseen.len() == self.grains.len() {
             return Err(MeasureError::NoSuchGrain { ids: unseen.join(", "), known: self.known });
         }
-        let ways = self.grains.values().flatten().map(|[first, last]| (last - first).norm());
+        let ways = self.grains.values().flatten().map(Followed::way);
         let summary = Summary::default()
             .with("grains", "", (self.grains.len() - unseen.len()) as f64)
             .with("way", "m", ways.clone().sum::<f64>() / ways.count().max(1) as f64)
             .with("largest_speed", "m/s", self.fastest);
         let note = format!("no frame holds the grains {}", unseen.join(", "));
-        Ok((Vec::new(), if unseen.is_empty() { summary } else { summary.note(note) }))
+        let summary = if unseen.is_empty() { summary } else { summary.note(note) };
+        Ok((Vec::new(), unsure_note(self.unsure).into_iter().fold(summary, Summary::note)))
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {
@@ -97,6 +137,7 @@ impl OfFrame for Track {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::periodic::PeriodicBox;
 
     #[test]
     fn a_grain_is_followed_by_its_id_wherever_its_row_is() {
@@ -118,5 +159,25 @@ mod tests {
         let mut none = Track::new(&[8]).unwrap();
         assert!(none.measure(&Run::default(), &frame(0.0, vec![1, 7, 3])).unwrap().is_empty());
         assert_eq!(none.end().unwrap_err(), MeasureError::NoSuchGrain { ids: "8".into(), known: [1, 7] });
+    }
+
+    /// 1 m/s in a cell of 0.1 m: after ten frames of 0.03 s it is 0.3 m from the start, though it stands where it was.
+    #[test]
+    fn a_way_counts_the_periods_that_a_grain_has_passed() {
+        let periodic = PeriodicBox { range: [Some((0.0, 0.1)), None, None] };
+        let frame = |k: u32| Frame {
+            time: 0.03 * f64::from(k),
+            id: vec![0],
+            position: vec![Vec3::new((0.01 + 0.03 * f64::from(k)) % 0.1, 0.0, 0.0)],
+            velocity: vec![Vec3::x()],
+            radius: vec![0.004],
+            periodic,
+            ..Frame::default()
+        };
+        let mut track = Track::new(&[0]).unwrap();
+        let rows: Vec<Row> =
+            (0..11).flat_map(|k| track.measure(&Run::default(), &frame(k)).unwrap()).collect();
+        assert!((rows[10][5] - 0.3).abs() < 1e-9 && (rows[10][2] - 0.01).abs() < 1e-9, "{:?}", rows[10]);
+        assert!(track.end().unwrap().1.notes.is_empty());
     }
 }

@@ -1,14 +1,14 @@
 //! Force of the grains on walls, over time, and the work of sliding on them: sums over the contacts in a shape.
 //!
 //! ```text
-//! F_wall = − Σ F_i        W = Σ w
+//! F_wall = − Σ F_i        N = Σ |F_i·n|        W = Σ w
 //! ```
 //!
-//! with the force F_i on grain i of each contact with a wall, as the run records it, and the sliding work w since
+//! with the force F_i on grain i of each contact with a wall, as the run records it, its normal n, and the sliding work w since
 //! the frame before, also that of contacts which have ended since. A run without contacts may hold the same sums for
 //! whole walls (`/wall_forces`): these are taken then, without normal forces and sliding work.
 
-use crate::observer::Observer;
+use crate::observer::{Observer, SLACK};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Contact, Contacts, ForceOnWall, MeasureError, Partner, Run, RunMessage, WallForces};
@@ -32,12 +32,12 @@ impl WallContactFilter {
     /// A wall that the run does not name.
     pub fn of<'c>(
         &'c self,
-        run: &Run,
+        run: &'c Run,
         contacts: &'c Contacts,
     ) -> Result<impl Iterator<Item = &'c Contact> + 'c, MeasureError> {
         let wall = self.wall.as_ref().map(|name| index(&run.walls, name)).transpose()?;
         let wanted = move |c: &&Contact| match c.partner {
-            Partner::Wall(j) => wall.is_none_or(|wall| wall == j) && self.holds_point(&c.point),
+            Partner::Wall(j) => wall.is_none_or(|wall| wall == j) && self.holds_point(run, &c.point),
             Partner::Grain(_) => false,
         };
         Ok(contacts.rows.iter().filter(wanted))
@@ -46,22 +46,19 @@ impl WallContactFilter {
     /// The forces on the walls that are wanted.
     ///
     /// # Errors
-    /// A part of the walls, which these forces do not tell; a wall that the run does not name.
+    /// A wall that the run does not name.
     fn of_whole<'c>(
         &self,
         forces: &'c WallForces,
     ) -> Result<impl Iterator<Item = &'c ForceOnWall>, MeasureError> {
-        if self.shape.is_some() {
-            return Err(MeasureError::WholeWalls);
-        }
         let names: Vec<String> = forces.walls.iter().map(|w| w.name.clone()).collect();
         let wall = self.wall.as_ref().map(|name| index(&names, name)).transpose()?;
         let wanted = move |k: usize| wall.is_none_or(|wall| wall == k as u64);
         Ok(forces.walls.iter().enumerate().filter(move |(k, _)| wanted(*k)).map(|(_, w)| w))
     }
 
-    fn holds_point(&self, point: &Vec3) -> bool {
-        self.shape.as_ref().is_none_or(|shape| shape.contains(point))
+    fn holds_point(&self, run: &Run, point: &Vec3) -> bool {
+        self.shape.as_ref().is_none_or(|shape| run.holds(shape, point))
     }
 
     /// Whether a time of a run [s] is looked at.
@@ -131,7 +128,7 @@ impl WallForce {
             self.touched = true;
             count += u64::from(c.acts());
             force -= c.force;
-            normal += c.force.dot(&c.normal);
+            normal += c.force.dot(&c.normal).abs();
             work += c.work;
         }
         self.work += work;
@@ -143,6 +140,9 @@ impl WallForce {
     }
 
     fn of_walls(&mut self, forces: &WallForces) -> Result<Row, MeasureError> {
+        if self.what.shape.is_some() {
+            return Err(MeasureError::WholeWalls);
+        }
         let (mut count, mut force) = (0, Vec3::zeros());
         for wall in self.what.of_whole(forces)? {
             count += wall.contacts;
@@ -198,7 +198,8 @@ impl Observer for WallForce {
                 }
             }
             RunMessage::WallForces(forces) if self.source == Some(Source::Contacts) => {
-                let same = |row: &Row| row.first() == Some(&forces.time);
+                // The time of contacts is in nanoseconds.
+                let same = |row: &Row| row.first().is_some_and(|time| (time - forces.time).abs() <= SLACK);
                 if let Some(mut row) = self.waiting.take_if(|row| same(row)) {
                     let sums = row.len() - 3;
                     row[sums..].copy_from_slice(&self.shift(&forces)?);
@@ -253,5 +254,40 @@ impl Observer for WallForce {
             return chart;
         }
         chart.columns(("time [s]", 0), "sliding work [J]", &[("", 8)], rows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn contact(z: f64, force: f64) -> Contact {
+        let (point, normal) = (Vec3::new(0.0, 0.0, z), Vec3::z());
+        let partner = Partner::Wall(0);
+        Contact { grain: 0, partner, point, normal, force: Vec3::z() * force, work: 0.0, overlap: 0.0 }
+    }
+
+    /// A run of a servo holds contacts and forces on whole walls: a SHAPE takes the contacts, shifts come from the walls, whose time is not
+    /// in nanoseconds, and normal forces that pull count with their size.
+    #[test]
+    fn a_servo_run_gives_contacts_in_a_shape_and_shifts_of_the_wall() {
+        let shape = Some("box:-1,-1,-0.5,1,1,0.5".parse().unwrap());
+        let between = (f64::NEG_INFINITY, f64::INFINITY);
+        let filter = WallContactFilter { shape, wall: Some("lid".to_owned()), between };
+        let (mut measure, mut rows) = (WallForce::new(filter), Vec::new());
+        let run = Run { walls: vec!["lid".to_owned()], ..Run::default() };
+        for (time, exact) in [(0.0, 0.0), (0.009998728, 0.0099987276543)] {
+            let contacts =
+                Contacts { time, rows: vec![contact(0.0, 2.0), contact(0.0, -0.5), contact(0.9, 7.0)] };
+            measure.observe(&run, RunMessage::Contacts(contacts), &mut rows).unwrap();
+            let wall = json!({"name": "lid", "force": [0, 0, -8.5], "contacts": 3, "shift": [0, 0, exact]});
+            let message = json!({"time": exact, "walls": [wall]}).to_string();
+            let forces = WallForces::new(time, message.as_bytes()).unwrap();
+            measure.observe(&run, RunMessage::WallForces(forces), &mut rows).unwrap();
+        }
+        measure.end(&run, &mut rows).unwrap();
+        let short: Vec<[f64; 4]> = rows.iter().map(|r| [r[1], r[4], r[6], r[11]]).collect();
+        assert_eq!(short, [[2.0, -1.5, 2.5, 0.0], [2.0, -1.5, 2.5, 0.0099987276543]]);
     }
 }

@@ -41,6 +41,7 @@ impl ClumpRecord {
         let one = |i: usize| {
             let json = map.get(&i.to_string()).ok_or_else(|| wrong(i, "is missing".to_owned()))?;
             let shape: ClumpRecord = serde_json::from_str(json).map_err(|e| wrong(i, e.to_string()))?;
+            crate::error::check_name(stream, &format!("its record 'clumps', index {i}"), &shape.name)?;
             let sound = shape.scales.is_none_or(|(low, high)| 0.0 < low && low <= high && high.is_finite());
             let spheres = shape.spheres.iter().all(|s| s[3] > 0.0 && s.iter().all(|x| x.is_finite()));
             match sound && spheres && !shape.spheres.is_empty() {

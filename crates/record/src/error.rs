@@ -1,5 +1,6 @@
 //! Why a record or table cannot be used.
 
+use crate::name;
 use thiserror::Error;
 
 /// A file that holds something else than wanted.
@@ -19,6 +20,16 @@ impl RecordError {
     pub fn new(name: &str, why: impl Into<String>, cure: impl Into<String>) -> RecordError {
         RecordError { name: name.to_owned(), why: why.into(), cure: cure.into() }
     }
+}
+
+/// Refuses a name with control characters; `place` says where in the stream it stands.
+///
+/// # Errors
+/// Such a name.
+pub(crate) fn check_name(stream: &str, place: &str, name: &str) -> Result<(), RecordError> {
+    let Some(c) = name::forbidden(name) else { return Ok(()) };
+    let why = format!("{place}: the name {name:?} has {}", name::in_words(c));
+    Err(RecordError::new(stream, why, name::CURE))
 }
 
 /// A positive number of a metadata record.

@@ -45,7 +45,9 @@ impl MaterialRecord {
             let why = || format!("its record 'materials' has {} entries and none for index {i}", map.len());
             let json = json.ok_or_else(|| RecordError::new(stream, why(), cure))?;
             let wrong = |e| RecordError::new(stream, format!("its record 'materials', index {i}: {e}"), cure);
-            serde_json::from_str(json).map_err(wrong)
+            let material: MaterialRecord = serde_json::from_str(json).map_err(wrong)?;
+            crate::error::check_name(stream, &format!("its record 'materials', index {i}"), &material.name)?;
+            Ok(material)
         };
         (0..map.len()).map(one).collect()
     }
@@ -53,5 +55,25 @@ impl MaterialRecord {
     /// The record.
     pub fn to_map(materials: &[MaterialRecord]) -> Map {
         materials.iter().enumerate().map(|(i, m)| (i.to_string(), crate::json(m))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file of a third party must not bring lines for scripts.
+    #[test]
+    fn a_name_with_a_line_break_is_refused_where_it_enters() {
+        let record = |name: &str| {
+            let material = MaterialRecord { name: name.to_owned(), ..MaterialRecord::default() };
+            MaterialRecord::from_map("walls.mcap", &MaterialRecord::to_map(&[material]))
+        };
+        assert_eq!(record("5\" clay & rock").unwrap()[0].name, "5\" clay & rock");
+        let message = record("x\nshell touch PWNED\n#").unwrap_err().to_string();
+        assert!(
+            message.contains("walls.mcap") && message.contains("index 0") && message.contains("U+000A"),
+            "{message}"
+        );
     }
 }

@@ -160,11 +160,15 @@ pub enum ViewError {
     },
     /// A folder that is in the way of a series.
     #[error(
-        "{folder}: exists and contains other files than the .vtp files of a series: remove it, or give another name"
+        "{folder}: exists and would be replaced, but holds '{file}', which {list} does not list: move it elsewhere, or give another name with -o"
     )]
     NotSeries {
         /// The folder.
         folder: String,
+        /// The first file that is not of the series.
+        file: String,
+        /// The collection that lists its files.
+        list: String,
     },
     /// A file or pipe that cannot be used.
     #[error("{what}")]

@@ -3,7 +3,7 @@
 use geom::{Plane, Vec3, mesh::TriMesh};
 use stream::{Table, Values};
 use view::{
-    DrawnTable, Motion, Role, SurfaceShape, WallSurface,
+    DrawnTable, LayerHead, Motion, Role, Series, Show, Span, SurfaceShape, WallSurface,
     vtk::{self, PolyData},
 };
 
@@ -131,4 +131,35 @@ fn a_collection_names_each_file_with_its_time() {
     let sets: Vec<_> = xml.descendants().filter(|n| n.has_tag_name("DataSet")).collect();
     assert_eq!(sets.iter().map(|s| s.attribute("timestep")).collect::<Vec<_>>(), [Some("0"), Some("0.02")]);
     assert!(sets.iter().all(|s| s.attribute("name") == Some("a & b") && s.attribute("part") == Some("1")));
+}
+
+/// Files of the user beside the series stay, and so does a link to a folder; a series is replaced by the next one.
+#[test]
+fn a_series_replaces_the_files_of_its_collection_and_no_other() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (list, files) = (folder.path().join("run & more.pvd"), folder.path().join("run & more"));
+    let write_series = || -> Result<usize, view::ViewError> {
+        let folder = vtk::SeriesFolder::beside(&list)?;
+        let span = Span { from: 0.0, to: 1.0, every: None };
+        let mut series = Series::new(span, folder.keeper());
+        let layer = series.layer(LayerHead::new(Role::Grains, "grains"));
+        series.push(layer, 0.5, table(2, true))?;
+        let entries = folder.entries(&series, &[0.5])?;
+        let count = folder.commit()?;
+        vtk::write_collection(&entries, &mut std::fs::File::create(&list).expect("created"))
+            .expect("written");
+        Ok(count)
+    };
+    assert_eq!(write_series().expect("new"), 1);
+    assert_eq!(write_series().expect("replaced"), 1);
+    std::fs::write(files.join("mymesh.vtp"), "mine").expect("written");
+    let message = write_series().expect_err("a file of the user").to_string();
+    assert!(message.contains("run & more: exists") && message.contains("'mymesh.vtp'"), "{message}");
+    assert_eq!(std::fs::read(files.join("mymesh.vtp")).expect("kept"), b"mine");
+    std::fs::remove_file(files.join("mymesh.vtp")).expect("removed");
+    let elsewhere = folder.path().join("elsewhere");
+    std::fs::rename(&files, &elsewhere).expect("moved");
+    std::os::unix::fs::symlink("elsewhere", &files).expect("linked");
+    assert_eq!(write_series().expect("through the link"), 1);
+    assert!(files.is_symlink() && elsewhere.is_dir());
 }

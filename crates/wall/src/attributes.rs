@@ -1,7 +1,7 @@
 //! What a wall sphere is made of, and how it moves.
 
 use geom::Vec3;
-use record::{MaterialRecord, POISSON, is_poisson};
+use record::{MaterialRecord, POISSON, is_poisson, name};
 use thiserror::Error;
 
 /// An attribute that cannot be.
@@ -12,6 +12,8 @@ pub enum AttributeError {
     Range { place: String, what: &'static str, value: f64, range: &'static str },
     #[error("{place}: material '{name}' has two sets of values: give one of the two another name")]
     TwoOfOneName { place: String, name: String },
+    #[error("{place}: the name {name:?} has {}: {}", name::in_words(*c), name::CURE)]
+    ControlCharacter { place: String, name: String, c: char },
     #[error("{place}: the material has no name: give it one, so that the scene can refer to it")]
     NoName { place: String },
 }
@@ -29,6 +31,10 @@ pub fn check_material(material: &MaterialRecord, place: &str) -> Result<(), Attr
     };
     if material.name.is_empty() {
         return Err(AttributeError::NoName { place: place.to_owned() });
+    }
+    if let Some(c) = name::forbidden(&material.name) {
+        let (place, name) = (place.to_owned(), material.name.clone());
+        return Err(AttributeError::ControlCharacter { place, name, c });
     }
     range("young [Pa]", material.young, |x| x > 0.0 && x.is_finite(), "positive")?;
     range("poisson", material.poisson, is_poisson, POISSON)?;

@@ -41,6 +41,21 @@ pub fn scene() -> TempDir {
     folder(&[("s.toml", SCENE)])
 }
 
+/// A line of a script that ends in & swallows the next one, also in a comment: names are escaped there.
+#[test]
+fn names_stay_in_their_comments() {
+    let text = SCENE.replace("\"glass\"", "'glass &'").replace("\"floor\"", "'5\" \"\"\" $x &'");
+    let folder = folder(&[("s.toml", text.as_str()), ("plain & simple.toml", SCENE)]);
+    for scene in ["s.toml", "plain & simple.toml"] {
+        succeed(folder.path(), "dem-lammps", &[scene, "--write-deck", "deck"]);
+        let input = fs::read_to_string(folder.path().join("deck/run.in")).unwrap();
+        let comments = input.lines().filter_map(|line| line.split_once("# ")).map(|(_, comment)| comment);
+        let harmful = comments.filter(|c| c.contains(['&', '"', '$'])).collect::<Vec<_>>();
+        assert!(harmful.is_empty(), "{scene}: {harmful:?}");
+        fs::remove_dir_all(folder.path().join("deck")).unwrap();
+    }
+}
+
 /// A deck that was written runs with LAMMPS alone, and its dump is read back: the same run.
 #[test]
 fn a_deck_that_runs_elsewhere_gives_the_same_run() {

@@ -42,6 +42,7 @@ fn measure_run(args: Args) -> anyhow::Result<Report> {
         }
     }
     drop(progress);
+    run.ending.warning().iter().for_each(|warning| cli::warn(&format!("{}: {warning}", args.run)));
     let summary = observer.end(&run, &mut rows).with_context(place)?;
     let count = sheet.finish(&observer.heads(), &rows, &summary)?;
     kept.append(&mut rows);

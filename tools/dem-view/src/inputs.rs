@@ -4,6 +4,7 @@ use crate::args::Args;
 use ::cloud::Cloud;
 use anyhow::Context;
 use cli::Source;
+use record::Ending;
 use serde_json::{Value, json};
 use std::io::{Cursor, Read};
 use stream::{
@@ -100,12 +101,15 @@ fn run(
 ) -> anyhow::Result<Vec<Value>> {
     let name = short_name(source);
     let events = Reader::new(from).map_while(|event| source.as_far_as_it_goes(event).transpose());
+    let mut ending = Ending::default();
     let events = events.inspect(|event| {
         if let Ok(event) = event {
+            ending.take(event);
             watch(&name, event);
         }
     });
     let messages = view::show_run(events, &name, args.extras(), show)?;
+    ending.warning().iter().for_each(|warning| cli::warn(&format!("{source}: {warning}")));
     Ok(messages.iter().map(|(t, n)| json!({ "input": name, "topic": t, "messages": n })).collect())
 }
 

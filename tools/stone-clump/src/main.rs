@@ -49,10 +49,10 @@ struct Args {
     #[arg(long, value_name = "M", value_parser = geom::number::not_negative)]
     distance: Option<f64>,
     /// Name of the clump [default: stone]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = record::name::name)]
     name: Option<String>,
     /// Material of the clump [default: rock]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = record::name::name)]
     material: Option<String>,
     #[command(flatten)]
     seed: cli::Seed,

@@ -8,8 +8,8 @@ use stream::{Table, Values};
 
 /// The `[[clump]]` of a scene.
 pub fn toml(name: &str, material: &str, clump: &Clump, moments: &Moments) -> String {
-    let text = |s: &str| s.replace('\\', "\\\\").replace('"', "\\\"");
-    let mut out = format!("[[clump]]\nname = \"{}\"\nmaterial = \"{}\"\n", text(name), text(material));
+    let [name, material] = [name, material].map(record::name::toml);
+    let mut out = format!("[[clump]]\nname = {name}\nmaterial = {material}\n");
     let (c, j) = (moments.centre, moments.inertia);
     // Six terms of the tensor, as [[clump]] takes them.
     let terms = [j.m11, j.m22, j.m33, j.m12, j.m13, j.m23].map(|x| format!("{x:e}")).join(", ");

@@ -55,7 +55,7 @@ pub struct Args {
     #[command(flatten)]
     pub lengths: cli::Lengths,
     /// Name of the stones' material, for the report and for --rigid [default: rock]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = record::name::name)]
     material: Option<String>,
     /// Stones are clusters of grains that bonds hold together, and can break (default)
     #[arg(long, conflicts_with = "rigid")]

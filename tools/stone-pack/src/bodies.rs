@@ -14,7 +14,7 @@ pub fn write(
     packing: &Packing,
 ) -> anyhow::Result<()> {
     let mut text = String::new();
-    let name = material.replace('\\', "\\\\").replace('"', "\\\"");
+    let material = record::name::toml(material);
     for (k, p) in packing.placed.iter().enumerate() {
         let of = &library.stones[p.stone];
         // In the frame of the placed stone, about its centre of mass: a body at rest in it has no rotation.
@@ -23,7 +23,7 @@ pub fn write(
         let terms = [j.m11, j.m22, j.m33, j.m12, j.m13, j.m23].map(|x| format!("{x:e}")).join(", ");
         let _ = write!(
             text,
-            "[[clump]]\nname = \"stone {n}\"\nmaterial = \"{name}\"\n\
+            "[[clump]]\nname = \"stone {n}\"\nmaterial = {material}\n\
              moments = {{ volume = {volume:e}, centre = [0, 0, 0], inertia = [{terms}] }}\nspheres = [\n",
             n = k + 1,
             volume = p.volume(of)

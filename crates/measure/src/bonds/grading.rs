@@ -11,7 +11,6 @@ use super::{Bonds, NO_BONDS};
 use crate::observer::{Observer, Which};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{Frame, MeasureError, Run, RunMessage};
-use geom::Vec3;
 
 /// The fragments of the first and of the last frame that count.
 struct Ends {
@@ -44,8 +43,7 @@ impl Ends {
         else {
             return Ok(());
         };
-        let periods = Vec3::from(run.periodic.map(|axis| axis.map_or(0.0, |(low, high)| high - low)));
-        let now = (time, pieces(frame, bonds, periods)?);
+        let now = (time, pieces(frame, bonds, frame.periodic.lengths())?);
         if self.first.is_none() {
             self.first = Some(now.clone());
         }

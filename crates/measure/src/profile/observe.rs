@@ -2,6 +2,7 @@
 
 use super::{Grid, Turn};
 use crate::observer::{OfFrame, Which};
+use crate::periodic::PeriodicBox;
 use crate::sheet::{Chart, Head, Panel, Row, Summary};
 use crate::{Frame, MeasureError, Run, RunMessage, table};
 use geom::Vec3;
@@ -41,7 +42,7 @@ impl BoxOfFrames {
         if frame.is_empty() || !self.which.holds(run, frame.time) {
             return;
         }
-        let bounds = self.turn.map_or_else(|| in_box(run, frame), |turn| seen_along(frame, turn).bounds());
+        let bounds = self.turn.map_or_else(|| in_box(frame), |turn| seen_along(frame, turn).bounds());
         self.corners = Some(self.corners.map_or(bounds, |b| (b.0.inf(&bounds.0), b.1.sup(&bounds.1))));
     }
 
@@ -83,8 +84,8 @@ impl Profile {
 }
 
 /// The box around all grains; along an axis that one reaches through a periodic face of, the whole period: its image is at the other.
-fn in_box(run: &Run, frame: &Frame) -> (Vec3, Vec3) {
-    let ((mut low, mut high), room) = (frame.bounds(), run.room());
+fn in_box(frame: &Frame) -> (Vec3, Vec3) {
+    let ((mut low, mut high), room) = (frame.bounds(), frame.periodic.corners());
     for axis in (0..3).filter(|&k| low[k] < room.0[k] || high[k] > room.1[k]).collect::<Vec<usize>>() {
         (low[axis], high[axis]) = (room.0[axis], room.1[axis]);
     }
@@ -118,15 +119,15 @@ impl OfFrame for Profile {
         heads
     }
 
-    fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
+    fn measure(&mut self, _: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
         // Turned, the axes of the grid are not those of the box: what of a ball is beyond a face stays there.
         let (seen, room, bounds) = match self.options.turn {
             Some(turn) => {
                 let turned = seen_along(frame, turn);
                 let bounds = turned.bounds();
-                (Cow::Owned(turned), Run::default().room(), bounds)
+                (Cow::Owned(turned), PeriodicBox::default().corners(), bounds)
             }
-            None => (frame.with_images(run), run.room(), in_box(run, frame)),
+            None => (frame.with_images(), frame.periodic.corners(), in_box(frame)),
         };
         let fields = self.fields(&seen)?;
         if frame.is_empty() && self.options.corners.is_none() && self.grid.is_none() {

@@ -85,6 +85,7 @@ impl Check<'_> {
                 let (key, value) = (format!("clump.{i}.name"), format!("\"{}\"", c.name));
                 return Err(self.wrong(&key, value, "is not a unique name", "name each clump differently"));
             }
+            self.name(&format!("clump.{i}.name"), &c.name)?;
             self.clump(&format!("clump.{i}"), c)?;
         }
         for (i, b) in m.body.iter().enumerate() {

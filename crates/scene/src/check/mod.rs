@@ -37,6 +37,13 @@ impl Check<'_> {
         }))
     }
 
+    /// A name without control characters: it goes into scripts and tables.
+    pub(crate) fn name(&self, key: &str, name: &str) -> Result<()> {
+        let Some(c) = record::name::forbidden(name) else { return Ok(()) };
+        let why = format!("has {}", record::name::in_words(c));
+        Err(self.wrong(key, format!("{name:?}"), &why, record::name::CURE))
+    }
+
     /// A number above zero, where there is one.
     pub(crate) fn positive(&self, key: &str, value: impl Into<Option<f64>>, unit: &str) -> Result<()> {
         let [least, most] = dem::magnitudes(unit);
@@ -146,5 +153,36 @@ impl Check<'_> {
     /// The index of a material, by name.
     pub(crate) fn material(&self, key: &str, name: &str, known: &[Material]) -> Result<u16> {
         Ok(self.named(key, name, "material", known.iter().map(|m| m.name.as_str()))? as u16)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Scene;
+    use std::path::Path;
+
+    /// Names go into scripts line by line: a line break in one would be a command.
+    #[test]
+    fn names_with_control_characters_are_refused_by_key() {
+        let read = |material: &str, clump: &str, wall: &str| {
+            let [material, clump, wall] = [material, clump, wall].map(record::name::toml);
+            let toml = format!(
+                "[time]\nuntil = 1\n[[material]]\nname = {material}\ndensity = 2600\nyoung = 2e7\npoisson = 0.25\n\
+                 [[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 0.5\n\
+                 [[clump]]\nname = {clump}\nmaterial = {material}\nspheres = [[0, 0, 0, 0.01], [0.01, 0, 0, 0.01]]\n\
+                 [[wall]]\nname = {wall}\nplane = \"0,0,0,0,0,1\"\nmaterial = {material}\n"
+            );
+            Scene::new("scene.toml", toml, &[], Path::new(".")).map(drop).map_err(|e| e.to_string())
+        };
+        assert_eq!(read("5\" clay & rock", "Stöckchen", "$wall"), Ok(()));
+        let bad = "x\nshell touch PWNED\n#";
+        for (key, message) in [
+            ("material.0.name", read(bad, "c", "w")),
+            ("clump.0.name", read("m", bad, "w")),
+            ("wall.0.name", read("m", "c", bad)),
+        ] {
+            let message = message.unwrap_err();
+            assert!(message.contains(key) && message.contains("U+000A"), "{key}: {message}");
+        }
     }
 }

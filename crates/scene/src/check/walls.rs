@@ -11,6 +11,7 @@ impl Check<'_> {
     }
 
     fn wall(&self, entry: &str, w: &Wall) -> Result<()> {
+        self.name(&format!("{entry}.name"), w.name.as_deref().unwrap_or_default())?;
         let kinds = [
             ("source", w.source.is_some()),
             ("plane", w.plane.is_some()),

@@ -1,9 +1,11 @@
 //! A series of files for ParaView: a folder of `.vtp`, filled beside its final name and renamed when whole.
 
+use super::polydata::escaped;
 use super::{Entry, PolyData, Reach, points, walls};
 use crate::ViewError;
 use crate::series::{KeepState, Series, SeriesLayer};
 use std::cell::RefCell;
+use std::collections::HashSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
@@ -14,28 +16,29 @@ pub struct SeriesFolder {
     filling: tempfile::TempDir,
     place: PathBuf,
     name: String,
+    /// The collection.
+    list: PathBuf,
     /// The extent of all states so far.
     reach: Rc<RefCell<Reach>>,
 }
 
 impl SeriesFolder {
-    /// The folder `run` of `run.pvd`; one that is there already must be of this kind.
+    /// The folder `run` of `run.pvd`. One that is there already is replaced if `run.pvd` lists all its files; a link to it stays a link.
     ///
     /// # Errors
-    /// A folder that holds other files, or that cannot be created.
+    /// A folder that holds other files, or that cannot be created; a link to nothing.
     pub fn beside(path: &Path) -> Result<SeriesFolder, ViewError> {
         let place = path.with_extension("");
         let name = place.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if place.exists() && !only_vtp(&place) {
-            return Err(ViewError::NotSeries { folder: place.display().to_string() });
-        }
+        only_series(&place, &name, path)?;
+        let place = if place.is_symlink() { end_of_link(&place)? } else { place };
         let parent = place.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let filling =
             tempfile::Builder::new().prefix(&format!(".{name}.")).suffix(".part").tempdir_in(parent);
         let create =
             format!("{}: cannot create it (check that the folder exists and is writable)", place.display());
         let filling = filling.map_err(ViewError::io(create))?;
-        Ok(SeriesFolder { filling, place, name, reach: Rc::default() })
+        Ok(SeriesFolder { filling, place, name, list: path.to_owned(), reach: Rc::default() })
     }
 
     /// Writes each state to a file as it comes: a run that does not fit in memory can be shown.
@@ -113,9 +116,11 @@ impl SeriesFolder {
     /// Gives the folder its name; the number of files in it.
     ///
     /// # Errors
-    /// A folder that cannot be renamed.
+    /// A folder that cannot be renamed, or now holds other files.
     pub fn commit(self) -> Result<usize, ViewError> {
         let place = self.place.clone();
+        // Files may have come since the folder was looked at.
+        only_series(&place, &self.name, &self.list)?;
         let rename = || {
             if self.place.exists() {
                 fs::remove_dir_all(&self.place)?;
@@ -146,11 +151,36 @@ fn write(path: &Path, data: &PolyData) -> Result<(), ViewError> {
     whole().map_err(|source| ViewError::Keep { file: path.display().to_string(), source })
 }
 
-fn only_vtp(folder: &Path) -> bool {
-    let is_vtp = |entry: io::Result<fs::DirEntry>| {
-        entry.is_ok_and(|e| Path::new(&e.file_name()).extension().is_some_and(|x| x == "vtp"))
+/// Refuses a folder with files that a collection does not list.
+fn only_series(folder: &Path, name: &str, collection: &Path) -> Result<(), ViewError> {
+    let refused = |file| {
+        let [folder, list] = [folder, collection].map(|path| path.display().to_string());
+        Err(ViewError::NotSeries { folder, file, list })
     };
-    fs::read_dir(folder).is_ok_and(|mut entries| entries.all(is_vtp))
+    foreign_file(folder, name, collection).map_or(Ok(()), refused)
+}
+
+/// A file of a folder that a collection does not list: the folder is then not that of the collection's series.
+fn foreign_file(folder: &Path, name: &str, collection: &Path) -> Option<String> {
+    if !folder.exists() {
+        return None;
+    }
+    let Ok(files) = fs::read_dir(folder) else { return Some(String::new()) };
+    let files =
+        files.map(|entry| entry.map_or(String::new(), |e| e.file_name().to_string_lossy().into_owned()));
+    let listed = fs::read_to_string(collection).unwrap_or_default();
+    let listed: HashSet<&str> =
+        listed.split("file=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    let mut foreign: Vec<String> =
+        files.filter(|file| !listed.contains(escaped(&format!("{name}/{file}")).as_str())).collect();
+    foreign.sort_unstable();
+    foreign.into_iter().next()
+}
+
+/// The folder that a link stands for.
+fn end_of_link(link: &Path) -> Result<PathBuf, ViewError> {
+    let cure = "make the folder that it names, or remove the link";
+    fs::canonicalize(link).map_err(ViewError::io(format!("{}: is a link to nothing: {cure}", link.display())))
 }
 
 /// A temporary folder is its owner's only; this one stays.
