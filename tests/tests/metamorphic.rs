@@ -7,32 +7,38 @@ use grainpipe_tests::metamorphic::{draw, page};
 use grainpipe_tests::tools::program;
 use std::collections::BTreeSet;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use toml::Value;
 
 const SCENES: u64 = 100;
 const SEED: u64 = 7_000_000;
 
-#[test]
-fn a_hundred_scenes_have_one_answer_in_other_words() {
+/// Scenes of `make metamorphic` that had two answers once: cracks of a run that was resumed, triangles of a flat wall in another order, mirrored ledgers,
+/// turned clumps, ledgers of clumps, spins and energies that were rounding.
+const ONCE: &[u64] = &[
+    1_000_018, 1_000_133, 1_000_432, 1_000_460, 1_000_506, 1_000_759, 1_000_843, 1_000_865, 1_000_989,
+    1_001_242, 1_001_384,
+];
+
+/// What is found of some scenes.
+fn found_of(seeds: &[u64]) -> Findings {
     let runner = Runner { program: program("dem-run") };
-    let (next, all) = (AtomicU64::new(0), Mutex::new(Findings::default()));
+    let (next, all) = (AtomicUsize::new(0), Mutex::new(Findings::default()));
     std::thread::scope(|scope| {
         for _ in 0..2 {
             scope.spawn(|| {
-                loop {
-                    let k = next.fetch_add(1, Ordering::Relaxed);
-                    if k >= SCENES {
-                        break;
-                    }
-                    let found = campaign::ask(&runner, SEED + k, &|_| true);
+                while let Some(&seed) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let found = campaign::ask(&runner, seed, &|_| true);
                     all.lock().expect("no thread panicked").add(found);
                 }
             });
         }
     });
-    let found = all.into_inner().expect("no thread panicked");
-    let table = page::table(&found);
+    all.into_inner().expect("no thread panicked")
+}
+
+fn assert_one_answer(found: &Findings) {
+    let table = page::table(found);
     assert!(
         found.refusals() * 3 <= found.scenes,
         "{} of {} refused: {:?}",
@@ -43,6 +49,16 @@ fn a_hundred_scenes_have_one_answer_in_other_words() {
     let failed: Vec<String> =
         found.failures.iter().map(|f| format!("seed {}, {}: {}", f.seed, f.relation.name, f.words)).collect();
     assert!(failed.is_empty(), "{table}\n{}", failed.join("\n"));
+}
+
+#[test]
+fn a_hundred_scenes_have_one_answer_in_other_words() {
+    assert_one_answer(&found_of(&(SEED..SEED + SCENES).collect::<Vec<_>>()));
+}
+
+#[test]
+fn scenes_that_had_two_answers_have_one() {
+    assert_one_answer(&found_of(ONCE));
 }
 
 /// Keys that no scene has, and why.

@@ -45,6 +45,7 @@ pub mod random;
 pub mod shape;
 #[cfg(not(target_arch = "nvptx64"))]
 mod shown;
+#[cfg(not(target_arch = "nvptx64"))]
 mod solid_bounds;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod sphere;
