@@ -21,8 +21,6 @@ use dem::setup::*;
 use geom::Vec3;
 use grainpipe_tests::setups::{Law, empty, grain};
 
-/// Time at each tilt, in √(r/g): a grain that is 1° too steep goes 1.2 r in it.
-const WAIT: f64 = 12.0;
 /// Speed of a grain at rest [√(r g)].
 const AT_REST: f64 = 1e-5;
 /// How often 60 √(r/g) are waited for all to be at rest.
@@ -55,6 +53,8 @@ pub struct Tilting {
     pub from: f64,
     /// How much is added each time [rad].
     pub step: f64,
+    /// Time at each tilt, in √(r/g): in 12 a grain that is 1° too steep goes 1.2 r, in 6 a quarter of that.
+    pub wait: f64,
     /// Of the contacts [N/m]. The spring of friction is new at each tilt, and a grain gives way by μ F/k_t until it holds: soft
     /// contacts are fast, and grains leave a little early.
     pub stiffness: f64,
@@ -69,7 +69,7 @@ pub fn leaving_tilts(
     spheres: &[(Vec3, f64)],
     kind: Grain,
     places: &[(f64, f64)],
-    Tilting { azimuth, from, step, stiffness }: Tilting,
+    Tilting { azimuth, from, step, wait, stiffness }: Tilting,
 ) -> Vec<(Vec3, f64)> {
     // Down in its pocket by itself: what rubs could hold it up on the way.
     let mut setup = laid(spheres, kind.radius, stiffness, places);
@@ -92,7 +92,7 @@ pub fn leaving_tilts(
         let still_there = |k: &usize| left[*k] > tilt;
         let there: Vec<usize> = (0..now.len()).filter(still_there).collect();
         setup.particles = there.iter().map(|&k| now[k]).collect();
-        let after = rested(&setup, WAIT);
+        let after = rested(&setup, wait);
         for (&k, p) in there.iter().zip(&after) {
             now[k] = *p;
             if (p.position - settled[k].position).norm() > far {

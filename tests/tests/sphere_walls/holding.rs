@@ -35,7 +35,7 @@ fn pockets_hold_up_to_their_tilt() {
                 &wall,
                 kind,
                 &places(0.3, 0.05, 25),
-                Tilting { azimuth, from: 0.0, step: TILT, stiffness: 3e4 },
+                Tilting { azimuth, from: 0.0, step: TILT, wait: 6.0, stiffness: 3e4 },
             );
             let tops =
                 left.iter().filter_map(|(at, tilt)| Some((tilt, closed_tilt(&wall, R, *at, azimuth)?)));
@@ -68,7 +68,7 @@ fn grains_that_cannot_roll_are_wedged() {
             &wall,
             kind,
             &places(0.1, 0.04, 3),
-            Tilting { azimuth: 0.0, from: 0.6 * closed, step: TILT, stiffness: 3e4 },
+            Tilting { azimuth: 0.0, from: 0.6 * closed, step: TILT, wait: 6.0, stiffness: 3e4 },
         );
         let off = left.iter().map(|l| (l.1 - closed - 0.5 * LATE).abs()).fold(0.0, f64::max);
         let on = format!("square, ζ/P = {share}, μ = {mu}");

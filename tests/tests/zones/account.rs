@@ -132,7 +132,7 @@ fn a_zone_that_holds_back_the_stream_is_measured() {
         sim.returned().held_back[0]
     };
     let [constant, falling] = [ZoneMotion::Constant, ZoneMotion::Ballistic].map(held);
-    assert_eq!((constant.passed, falling.passed), (30, 30));
+    assert!(falling.passed == 30 && constant.passed < 20, "{} and {} pass", falling.passed, constant.passed);
     assert!(constant.impulse > 0.1 * constant.momentum, "{constant:?}");
     assert!(falling.impulse.abs() < 1e-9 * falling.momentum, "{falling:?}");
     // What passed: each at the speed of its fall.

@@ -1,5 +1,6 @@
 //! LAS and LAZ, by the `las` crate.
 
+use super::las_crs::{projected, reference_system};
 use super::las_extra::{self, ExtraColumn};
 use super::laz::{self, Bytes, Chunk, STACK, Shallow};
 use super::{ReadError, catch};
@@ -19,8 +20,6 @@ const CHUNK: u64 = 1 << 20;
 const ROOM: u64 = 1 << 26;
 /// Files below this [B] are unpacked by one thread.
 const SMALL: u64 = 1 << 22;
-/// Longest name of a coordinate reference system that a comment holds [B].
-const LONGEST: usize = 8192;
 /// Packed points of a byte of the file at most; scans have less than one.
 const DENSEST: u64 = 1000;
 
@@ -87,47 +86,6 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
         comments.push("the packets of waves were left out".to_owned());
     }
     Ok(Cloud { points: all.points, attributes, double: true, comments, ..Cloud::default() })
-}
-
-/// Mark of longitude and latitude in the keys of GeoTIFF.
-const GEOGRAPHIC: u16 = 2;
-
-/// The coordinate reference system: its EPSG code, or its well-known text.
-fn reference_system(header: &Header) -> Option<String> {
-    let geotiff = || {
-        let keys = header.get_geotiff_crs().ok()??;
-        let codes = [keys.get_projected_crs_geo_key_value(), keys.get_geodetic_crs_geo_key_value()];
-        // Codes from 32 767 on are of the user.
-        codes.into_iter().flatten().find(|code| (1..32_767).contains(code))
-    };
-    let text = || {
-        let text = String::from_utf8_lossy(header.get_wkt_crs_bytes()?);
-        let words: Vec<&str> =
-            text.split(|c: char| c.is_whitespace() || c.is_control()).filter(|w| !w.is_empty()).collect();
-        Some(words.join(" ")).filter(|text| !text.is_empty() && text.len() <= LONGEST)
-    };
-    text().or_else(|| geotiff().map(|code| format!("EPSG:{code}")))
-}
-
-/// Refuses coordinates in degrees, which are no lengths.
-fn projected(header: &Header) -> Result<(), String> {
-    let text = String::from_utf8_lossy(header.get_wkt_crs_bytes().unwrap_or_default()).to_ascii_uppercase();
-    let holds = |words: &[&str]| words.iter().any(|word| text.contains(word));
-    let by_text = holds(&["GEOGCS", "GEOGCRS", "GEOGRAPHICCRS"])
-        && !holds(&["PROJCS", "PROJCRS", "PROJECTEDCRS", "GEOCCS", "LOCAL_CS", "ENGCRS"]);
-    let by_keys = || {
-        let keys = header.get_geotiff_crs().ok().flatten();
-        keys.is_some_and(|keys| keys.get_gt_model_type_geo_key_value() == Some(GEOGRAPHIC))
-    };
-    if by_text || text.is_empty() && by_keys() {
-        let name = reference_system(header).unwrap_or_default();
-        let name: String = name.chars().take(60).collect();
-        return Err(format!(
-            "the coordinates are degrees, not lengths ({name}): project them again, e.g. pdal translate IN.las OUT.las reprojection \
-             --filters.reprojection.out_srs=EPSG:25832 with the code of the place"
-        ));
-    }
-    Ok(())
 }
 
 /// Steps of coordinates that may be meant [m].

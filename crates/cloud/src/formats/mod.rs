@@ -6,6 +6,7 @@ mod drawing;
 mod e57;
 mod e57_claims;
 mod las;
+mod las_crs;
 mod las_extra;
 mod laz;
 mod pcd;

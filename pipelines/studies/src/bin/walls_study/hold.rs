@@ -17,7 +17,7 @@ const MU: f64 = 0.3;
 
 /// Down along 0.3 rad from a row, in steps of 1°.
 const TILTING: Tilting =
-    Tilting { azimuth: 0.3, from: 0.0, step: std::f64::consts::PI / 180.0, stiffness: 3e3 };
+    Tilting { azimuth: 0.3, from: 0.0, step: std::f64::consts::PI / 180.0, wait: 12.0, stiffness: 3e3 };
 
 /// One wall.
 struct Found {
