@@ -40,7 +40,8 @@ pub(crate) fn judge(
     }
     match settings.radius {
         Radius::Given(radius) => check_given(report, radius, built),
-        _ => check_found(report, built)?,
+        Radius::Uniform => check_found(report, built)?,
+        Radius::Solve => {}
     }
     check_place(report, built);
     if let Some(largest) = settings.largest_particle {
@@ -81,7 +82,7 @@ fn check_given(report: &mut WallReport, radius: f64, built: &Built) {
     }
 }
 
-/// Refuses spheres larger than the cloud that follow from its roughness.
+/// Refuses spheres larger than the cloud that follow from its roughness; of radii pair by pair some may be.
 fn check_found(report: &WallReport, built: &Built) -> Result<(), WallError> {
     let (width, radius) = (built.width(), report.radius_range[2]);
     if radius > width { Err(WallError::LargerThanCloud { radius, width }) } else { Ok(()) }
