@@ -42,6 +42,8 @@ pub struct WallReport {
     pub roughness: f64,
     /// Least, mean and largest radius [m].
     pub radius_range: [f64; 3],
+    /// Longest side of the box around the points [m].
+    pub width: f64,
     /// How far the least and the most of the wall stands in front of the points [m]: the radii where the centres are on the points, `None` where the
     /// surface is.
     pub in_front: Option<[f64; 2]>,
@@ -93,6 +95,7 @@ pub fn build(
         spacing_range: range(&found.lengths),
         roughness: zeta_all,
         radius_range: [range(&radii)[0], radii.iter().sum::<f64>() / radii.len() as f64, range(&radii)[1]],
+        width: 0.0,
         in_front: (settings.placement == Placement::Centre && !settings.of_drawing).then(|| range(&radii)),
         changes,
         changed: if settings.list_changes { list(&cells, &found, &asked, &radii) } else { Vec::new() },

@@ -13,9 +13,6 @@ const PRACTICAL: f64 = 0.8;
 /// Median wall sphere radius over smallest particle diameter above which a unit is likely wrong [–].
 const FAR_LARGER: f64 = 20.0;
 
-/// Share of the width of a cloud above which a wall that stands so far in front of its points has another shape [–].
-const IN_FRONT: f64 = 0.02;
-
 /// A wall that was built, and what it was built from.
 pub(crate) struct Built<'a> {
     pub(crate) points: &'a [Vec3],
@@ -38,12 +35,10 @@ pub(crate) fn judge(
     if let Some(deep) = &report.deep_dents {
         report.warnings.push(too_deep(deep, spacing));
     }
-    match settings.radius {
-        Radius::Given(radius) => check_given(report, radius, built),
-        Radius::Uniform => check_found(report, built)?,
-        Radius::Solve => {}
+    report.width = built.width();
+    if let Radius::Given(radius) = settings.radius {
+        check_given(report, radius, built);
     }
-    check_place(report, built);
     if let Some(largest) = settings.largest_particle {
         check_largest(report, largest);
     }
@@ -80,29 +75,6 @@ fn check_given(report: &mut WallReport, radius: f64, built: &Built) {
             Shown(width)
         ));
     }
-}
-
-/// Refuses spheres larger than the cloud that follow from its roughness; of radii pair by pair some may be.
-fn check_found(report: &WallReport, built: &Built) -> Result<(), WallError> {
-    let (width, radius) = (built.width(), report.radius_range[2]);
-    if radius > width { Err(WallError::LargerThanCloud { radius, width }) } else { Ok(()) }
-}
-
-/// Warns of a wall that stands far in front of the points, or in steps.
-fn check_place(report: &mut WallReport, built: &Built) {
-    let Some([least, most]) = report.in_front.filter(|[_, most]| *most > IN_FRONT * built.width()) else {
-        return;
-    };
-    let step = match most - least > 0.5 * most {
-        true => format!(", and by {} m less where it is rougher", Shown(most - least)),
-        false => String::new(),
-    };
-    report.warnings.push(format!(
-        "the centres of the spheres are on the points, so the wall stands {} m in front of them{step}; the cloud is {} m wide: give the flow side, \
-         --facing x,y,z or --flow-at x,y,z, and the wall goes through the points",
-        Shown(most),
-        Shown(built.width())
-    ));
 }
 
 /// Refuses spheres larger than the cloud; warns of those far larger than the smallest particle [m].

@@ -46,6 +46,7 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
         changes::write(path, &report.changed)?;
     }
     report.warnings.iter().for_each(|w| cli::warn(w));
+    far_in_front(&report).iter().for_each(|w| cli::warn(w));
     let words = summary(&report, &settings, drawn.as_ref())
         + &in_front(&report)
         + &of_drawing(added)
@@ -67,6 +68,25 @@ fn as_cloud(mut cloud: cloud::Cloud, wall: &Wall, regions: &Regions) -> anyhow::
     cloud.attributes.replace("radius", Values::F64(wall.radii.clone()))?;
     wall.push_attributes(&mut cloud.attributes, regions)?;
     Ok(cloud)
+}
+
+/// Share of the width of a cloud above which a wall that stands so far in front of its points has another shape [–].
+const IN_FRONT: f64 = 0.02;
+
+/// A warning where the wall stands far in front of the points, or in steps.
+fn far_in_front(report: &WallReport) -> Option<String> {
+    let [least, most] = report.in_front.filter(|[_, most]| *most > IN_FRONT * report.width)?;
+    let step = match most - least > 0.5 * most {
+        true => format!(", and {} m less where it is rougher", Shown(most - least)),
+        false => String::new(),
+    };
+    let larger = if most > report.width { "; is it in millimetres?" } else { "" };
+    Some(format!(
+        "the centres of the spheres are on the points, so the wall stands {} m in front of them{step}; the cloud is {} m wide{larger}: give the flow side, \
+         --facing x,y,z or --flow-at x,y,z, and the wall goes through the points",
+        Shown(most),
+        Shown(report.width)
+    ))
 }
 
 /// How far the wall stands in front of the points, where the centres are on them.
