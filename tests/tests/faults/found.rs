@@ -59,8 +59,8 @@ fn laz_whose_times_have_no_end() {
     let mut file = include_bytes!("times.laz").to_vec();
     // Scales that are none are refused before.
     file[131..155].copy_from_slice(&[0.01f64; 3].map(f64::to_le_bytes).concat());
-    // So are fewer points than its chunks hold.
-    file[107..111].copy_from_slice(&3_150_000u32.to_le_bytes());
+    // So are more chunks than its points fill: a chunk has 1000 points, in the record behind the header.
+    file[227 + 54 + 12..][..4].copy_from_slice(&1000u32.to_le_bytes());
     let said = cloud(file);
     CLAIMS.refused("LAZ: times", &said, &["does not belong to any sequence", "damaged"]);
     // The same in layers, where an overwritten sector says the same.
