@@ -95,7 +95,7 @@ pub fn build(
         spacing_range: range(&found.lengths),
         roughness: zeta_all,
         radius_range: [range(&radii)[0], radii.iter().sum::<f64>() / radii.len() as f64, range(&radii)[1]],
-        width: 0.0,
+        width: width(points),
         in_front: (settings.placement == Placement::Centre && !settings.of_drawing).then(|| range(&radii)),
         changes,
         changed: if settings.list_changes { list(&cells, &found, &asked, &radii) } else { Vec::new() },
@@ -271,6 +271,12 @@ fn place(
     let flow = settings.flow_at.map(normals::Flow::At).or(towards).ok_or(WallError::NoFacing)?;
     let normals = normals::oriented(points, &stars.normals, pairs, flow);
     Ok(points.iter().zip(&normals).zip(radii).map(|((p, n), r)| p - n * *r).collect())
+}
+
+/// Longest side of the box around points [m].
+fn width(points: &[Vec3]) -> f64 {
+    let (low, high) = geom::grid::bounds(points);
+    (high - low).max()
 }
 
 pub(crate) fn representative(values: &[f64], which: Representative) -> f64 {

@@ -35,9 +35,8 @@ pub(crate) fn judge(
     if let Some(deep) = &report.deep_dents {
         report.warnings.push(too_deep(deep, spacing));
     }
-    report.width = built.width();
     if let Radius::Given(radius) = settings.radius {
-        check_given(report, radius, built);
+        check_given(report, radius);
     }
     if let Some(largest) = settings.largest_particle {
         check_largest(report, largest);
@@ -53,12 +52,6 @@ pub(crate) fn judge(
 }
 
 impl Built<'_> {
-    /// Longest side of the box around the points [m].
-    fn width(&self) -> f64 {
-        let (low, high) = geom::grid::bounds(self.points);
-        (high - low).max()
-    }
-
     /// The widest gap, and how many pass a particle of this diameter [m].
     fn widest_gap(&self, particle: f64) -> (Option<leak::Gap>, usize) {
         leak::widest(self.centres, self.radii, &self.stars.triangles, &self.stars.outline, particle)
@@ -66,8 +59,8 @@ impl Built<'_> {
 }
 
 /// Warns of a given radius [m] that is larger than the whole cloud.
-fn check_given(report: &mut WallReport, radius: f64, built: &Built) {
-    let width = built.width();
+fn check_given(report: &mut WallReport, radius: f64) {
+    let width = report.width;
     if radius > width {
         report.warnings.push(format!(
             "the given radius of {} m is larger than the cloud, which is {} m wide: is it in millimetres?",
@@ -79,7 +72,7 @@ fn check_given(report: &mut WallReport, radius: f64, built: &Built) {
 
 /// Refuses spheres larger than the cloud; warns of those far larger than the smallest particle [m].
 fn check_sizes(report: &mut WallReport, particle: f64, built: &Built) -> Result<(), WallError> {
-    let (width, radius) = (built.width(), report.radius_range[2]);
+    let (width, radius) = (report.width, report.radius_range[2]);
     if radius > width {
         return Err(WallError::LargerThanCloud { radius, width });
     }

@@ -221,10 +221,10 @@ fn keep(found: &mut BTreeMap<String, Worst>, group: String, worst: Worst) {
     }
 }
 
-/// The largest number of the group of each column.
 /// Share of a velocity over a radius below which a spin is rounding [–].
 const ROUNDED_SPIN: f64 = 1e-6;
 
+/// The largest number of the group of each column.
 fn largest(columns: &[String], rows: &[Named]) -> Vec<f64> {
     let mut all: Vec<f64> =
         (0..columns.len()).map(|k| rows.iter().map(|r| r.values[k].abs()).fold(0.0, f64::max)).collect();
