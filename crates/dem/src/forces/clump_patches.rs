@@ -10,7 +10,9 @@
 //! impact (a plate that falls flat). Forces of each pair of bodies count by themselves: at rest the sum over all pairs is zero. Bodies are clumps, single
 //! particles and walls.
 
-use crate::kernel::patch::{DampedMass, PATCH, Touch};
+use crate::kernel::damped_mass::DampedMass;
+use crate::kernel::patch::PATCH;
+use crate::kernel::touch::Touch;
 use crate::model::{Model, With};
 use crate::neighbours::{NeighbourLists, Segment};
 use crate::simd::BLOCK;
@@ -100,7 +102,7 @@ fn entries(model: &Model, state: &State, lists: &NeighbourLists, s: &Segment) ->
         if !((row.position() - partner.position()).norm_squared() < reach * reach) {
             continue;
         }
-        let touch = Touch::of([model.dt, ahead], row, partner, 0.0);
+        let touch = Touch::of(law, [model.dt, ahead], row, partner, 0.0);
         if touch.overlap <= 0.0 {
             continue;
         }
@@ -115,7 +117,7 @@ fn entries(model: &Model, state: &State, lists: &NeighbourLists, s: &Segment) ->
             arms.reverse();
             inverse_masses.reverse();
         }
-        let force = shared * law.alone(touch.overlap, touch.radius)[1];
+        let force = shared * touch.force;
         found.push(Entry { bodies, at, touch, force, arms, wall, inverse_masses, sign });
     }
     found
@@ -161,10 +163,9 @@ fn of_pair(model: &Model, state: &State, pair: &[&Entry]) -> Vec<(usize, [f64; 2
         .iter()
         .enumerate()
         .fold(0, |most, (k, e)| if e.touch.overlap > pair[most].touch.overlap { k } else { most });
+    let pace = all[deepest].pace();
     let numbers = |(e, own): (&&Entry, &DampedMass)| {
-        let [_, _, mass, inverse] =
-            own.numbers([1.0; 2], &all[deepest], e.inverse_masses[0] + e.inverse_masses[1]);
-        (e.at, [mass, inverse])
+        (e.at, own.numbers(pace, e.inverse_masses[0] + e.inverse_masses[1]))
     };
     pair.iter().zip(&all).map(numbers).collect()
 }

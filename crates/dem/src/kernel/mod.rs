@@ -6,6 +6,7 @@ mod buffer;
 #[cfg(not(target_arch = "nvptx64"))]
 pub(crate) mod compose;
 pub(crate) mod contact_loop;
+pub(crate) mod damped_mass;
 pub mod device_tables;
 pub mod lists;
 pub(crate) mod motion;
@@ -13,6 +14,7 @@ pub(crate) mod patch;
 pub mod ported;
 pub(crate) mod sums;
 pub mod thread;
+pub(crate) mod touch;
 pub(crate) mod wall_point;
 pub(crate) mod wrenches;
 

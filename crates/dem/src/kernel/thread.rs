@@ -13,8 +13,9 @@ use crate::kernel::contact_loop::{act, gather};
 use crate::kernel::device_tables::{
     DeviceBlock, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PLANE, SPHERES,
 };
-use crate::kernel::patch::{ALONE, Bodies, Instant, PATCH, Patch, PatchLaw, Touch};
+use crate::kernel::patch::{ALONE, Bodies, PATCH, Patch};
 use crate::kernel::sums::{Sum, WrenchSums, add, add_opposite};
+use crate::kernel::touch::{PatchLaw, Touch};
 use crate::kernel::wall_point::WallPose;
 use crate::kernel::{
     Batch, MoveInputs, Mover, Ported, SlotEnd, StepInputs, Sums, WrenchBuffer, WrenchSlices, WrenchSlicesMut,
@@ -51,7 +52,7 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
             t.table(t.particles.spins, if layout.rotates { t.particle_count + 2 } else { 0 });
         let mut patch = [1.0; PATCH * BLOCK];
         if kind.patch > 0 {
-            let numbers = share::<true>(t, step, kind, (block.kind, i), slot, E::HISTORY > 0);
+            let numbers = share::<true>(t, step, kind, (block.kind, i), slot);
             numbers.iter().enumerate().for_each(|(c, number)| patch[c * BLOCK] = *number);
         }
         let (row, spin) = partner(
@@ -117,8 +118,7 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
     }
 }
 
-/// What part the contact in a slot, of particle `i` and a kind of this number, has in its patch of wall spheres; `remembers`: whether springs know their
-/// stiffness a step ago. Not inlined, so that one copy serves all compositions; generic, or that copy would stay in the library.
+/// What part the contact in a slot, of particle `i` and a kind of this number, has in its patch of wall spheres. Not inlined, so that one copy serves all compositions; generic, or that copy would stay in the library.
 ///
 /// # Safety
 /// Tables are in place.
@@ -129,7 +129,6 @@ unsafe fn share<const COPY: bool>(
     kind: &DeviceKind,
     (number, i): (u32, u32),
     slot: usize,
-    remembers: bool,
 ) -> [f64; PATCH] {
     // SAFETY: by contract.
     unsafe {
@@ -143,20 +142,17 @@ unsafe fn share<const COPY: bool>(
             to += 1;
         }
         let row: Row = *t.particles.rows.at(i as usize);
+        let law = PatchLaw { shared: true, hertz: kind.patch > 1, gap: 0.0 };
         let touch = |k: usize| {
             let at = from + k;
             let point = block(at).point as usize + at % BLOCK;
             let (other, _) = partner(t, step, kind, &row, *t.contacts.partner.at(at), point);
-            Touch::of([t.drive.dt, t.drive.ahead], &row, &other, 0.0)
+            Touch::of(law, [t.drive.dt, t.drive.ahead], &row, &other, 0.0)
         };
-        let law = PatchLaw { shared: true, hertz: kind.patch > 1, gap: 0.0 };
         let Some(patch) = Patch::of(law, to - from, touch) else { return ALONE };
         let bodies = Bodies { inverse_mass: row[7], direction: Vec3::zeros(), wall: 0.0 };
-        let push = patch.push(|k| patch.share(k, Instant::Now));
-        patch.numbers(slot - from, &push, &bodies, |k| {
-            let now = patch.share(k, Instant::Now);
-            [now, if remembers { patch.share(k, Instant::Before) } else { now }]
-        })
+        let push = patch.push(&bodies, |k| patch.shares(k)[0]);
+        patch.numbers(slot - from, &push, &bodies, patch.shares(slot - from))
     }
 }
 

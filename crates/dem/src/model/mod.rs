@@ -33,7 +33,7 @@ pub use step_cause::{
 };
 
 use crate::effects::needed;
-use crate::kernel::patch::PatchLaw;
+use crate::kernel::touch::PatchLaw;
 use crate::kernel::{Kernel, MoveInputs};
 use crate::model::limit::{critical_of_contacts, largest_reach};
 use crate::model::servo::{Response, responses};

@@ -2,7 +2,7 @@
 
 use crate::effects::{ContactLaw, Damping, Elastic, Pair};
 use crate::kernel::compose::compose;
-use crate::kernel::patch::PatchLaw;
+use crate::kernel::touch::PatchLaw;
 use crate::model::limit::{contact_between, critical_step, grains, largest, normal, radii_by_material};
 use crate::model::matched;
 use crate::model::{DenseWalls, Kind, RepeatedMotion, SetupError, With};
