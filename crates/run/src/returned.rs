@@ -53,9 +53,9 @@ fn held_back(&HeldBack { impulse, momentum, passed }: &HeldBack) -> Option<Strin
     let share = impulse / momentum;
     (passed >= FEWEST && share > HOLDS_BACK).then(|| {
         format!(
-            "grains in its zone held back those that follow by {} N s, {} % of the momentum of the stream ({} N s); where a stream is free it is about 2 %. Unless they press each other forward \
-             anyway, as a bed that is pushed, less flows than without the cut: move the plane 3 to 4 grain diameters down the stream, or give the outlet motion = \"ballistic\" where grains \
-             fall behind it, else \"recorded\"",
+            "grains behind its plane held back those that follow by {} N s, {} % of the momentum of the stream ({} N s); where a stream is free it is about 2 %. Unless they press each other \
+             forward anyway, as a bed that is pushed, the flow is another than without the cut: move the plane 3 to 4 grain diameters down the stream, or give the outlet motion = \"recorded\" \
+             where it has another",
             Shown(impulse),
             Shown((1e3 * share).round() / 10.0),
             Shown(momentum)

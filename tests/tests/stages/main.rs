@@ -32,13 +32,14 @@ fn plant() -> TempDir {
     plant_of(&text(), &[], &[])
 }
 
-/// The same for any plant, with files that it names, and options of the cut.
+/// The same for any plant, with files that it names, and options of the cut; grains move at constant velocity in its zone unless these say otherwise.
 fn plant_of(text: &str, files: &[(&str, &str)], options: &[&str]) -> TempDir {
     let folder = folder(files);
     write(folder.path(), "plant.toml", text);
     for (keep, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
         let cut = ["plant.toml", "--at", AT, "--keep", keep, "-o", file];
-        succeed(folder.path(), "stage-split", &[&cut, options].concat());
+        let constant: &[&str] = if options.contains(&"--motion") { &[] } else { &["--motion", "constant"] };
+        succeed(folder.path(), "stage-split", &[&cut, constant, options].concat());
     }
     folder
 }

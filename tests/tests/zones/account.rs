@@ -80,7 +80,7 @@ fn a_cut_makes_no_energy_on_either_side() {
         let (undivided, _) = run(Simulation::new(whole.clone()).expect("sound"), vec![], until);
         let end = undivided.last().expect("it ran");
         let (exchanged, own) = (end.exchanged(), made(&undivided));
-        for motion in [ZoneMotion::Constant, ZoneMotion::Ballistic] {
+        for motion in ZoneMotion::ALL {
             let up = Setup { outlets: vec![cut(motion)], ..whole.clone() };
             let (upstream, crossed) = run(Simulation::new(up).expect("sound"), vec![], until);
             assert_eq!(crossed.len(), 12, "{name}: all pass");
@@ -95,8 +95,12 @@ fn a_cut_makes_no_energy_on_either_side() {
                 cluster: 0,
             };
             let feed = crossed.iter().map(entry).collect();
-            let (downstream, _) = run(Simulation::new(down).expect("sound"), feed, until);
-            for (side, seen) in [("upstream", &upstream), ("downstream", &downstream)] {
+            let mut sides = vec![("upstream", upstream)];
+            // Along paths what comes in moves as it did upstream, where these make no energy either.
+            if motion != ZoneMotion::Recorded {
+                sides.push(("downstream", run(Simulation::new(down).expect("sound"), feed, until).0));
+            }
+            for (side, seen) in &sides {
                 let start = seen[0].balance();
                 let drift = seen.iter().map(|e| (e.balance() - start).abs()).fold(0.0, f64::max);
                 assert!(

@@ -219,3 +219,41 @@ fn paths_resume_exactly() {
         assert_eq!(particles(&mut whole), particles(&mut parts), "{until} s");
     }
 }
+
+/// A fast grain runs into a slow one that has just passed the plane: the slow one gives way as in the plant that is not divided, and the fast one passes
+/// at the speed that it has after the collision. Each is there until the exclusion plane, and the ledger closes.
+#[test]
+fn behind_a_plane_of_recorded_paths_grains_give_way() {
+    let mut setup = empty(HOOKE, 0.5);
+    (setup.step, setup.ledger) = (Step::Fixed(2e-6), true);
+    setup.outlets = vec![recorded(0.0, 0.05)];
+    let moving = |id, x: f64, v: f64| Particle { velocity: Vec3::x() * v, ..grain(id, Vec3::x() * x) };
+    setup.particles = vec![moving(1, -0.001, 0.2), moving(2, -0.03, 1.0)];
+    let mut sim = Simulation::new(setup).expect("sound");
+    let mut passed = Vec::new();
+    let (mut left, mut balance) = (Vec::new(), Vec::new());
+    while sim.time() < 0.25 {
+        sim.step().expect("no guard");
+        passed.extend(sim.take_crossings());
+        let there = sim.particles().expect("ready").len();
+        left.resize(2 - there, sim.time());
+        balance.push(sim.energy().expect("ready").balance());
+    }
+    let speeds: Vec<(u32, f64)> = passed.iter().map(|c| (c.particle.id, c.particle.velocity.x)).collect();
+    let [(1, first), (2, second)] = speeds[..] else { panic!("{speeds:?}") };
+    assert!((first - 0.2).abs() < 1e-12, "{first}");
+    // Equal masses, restitution 0.5: (1 + 0.2)/2 ∓ 0.5 (1 − 0.2)/2.
+    assert!((second - 0.4).abs() < 1e-3, "{second}");
+    // The first collided 0.01125 s after the start and went on at 0.8 m/s; the second passes at 0.4 m/s.
+    let meet = 0.009 / 0.8;
+    let ends = [meet + (0.051 - 0.2 * meet) / 0.8, meet + (0.08 - meet) / 0.4];
+    for (left, end) in left.iter().zip(ends) {
+        assert!((left - end).abs() < 2e-3, "{left} and not {end}");
+    }
+    let drift = balance.iter().map(|b| (b - balance[0]).abs()).fold(0.0, f64::max);
+    let held = sim.returned().held_back[0];
+    let mass = dem::mass(0.01, 2500.0);
+    // What the second lost to the first.
+    assert!((held.impulse / (0.6 * mass) - 1.0).abs() < 1e-3, "{held:?}");
+    assert!(drift < 1e-12 * mass, "{drift:e} J");
+}

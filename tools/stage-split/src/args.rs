@@ -27,8 +27,8 @@ pub struct Args {
     /// Length of the zone behind the plane [m] (default: 1.2 times the largest diameter)
     #[arg(long, value_name = "M")]
     length: Option<f64>,
-    /// Motion in the zone
-    #[arg(long, value_enum, default_value = "constant")]
+    /// Motion in the zone, the same in both stages
+    #[arg(long, value_enum, default_value = "recorded")]
     motion: Motion,
     /// Which point of a particle triggers a crossing: its centre, or the foremost point of its surface along the plane's normal
     #[arg(long, value_enum, default_value = "centre")]
@@ -45,12 +45,12 @@ enum Keep {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Motion {
-    /// At the constant velocity that the grain had at the plane
-    Constant,
+    /// Upstream as ever, until they are removed at the end of the zone; downstream along the paths that they took upstream
+    Recorded,
     /// In free fall
     Ballistic,
-    /// Along the paths that the grains took in the upstream stage
-    Recorded,
+    /// At the constant velocity that the grain had at the plane
+    Constant,
 }
 
 #[derive(Clone, Copy, ValueEnum)]

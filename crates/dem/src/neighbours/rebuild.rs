@@ -13,7 +13,6 @@ use crate::state::ledger::wrap_in_ledger;
 use crate::state::{ContactColumns, ListStatus, State, WrenchColumns};
 use crate::threads::{change, each, share};
 use geom::Vec3;
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Particles below which one thread lists faster than several: handing over takes some ten microseconds.
@@ -322,16 +321,19 @@ pub fn steps_of_walls(model: &Model, state: &State, most: u64) -> u64 {
 }
 
 /// Notes which particles may pass a storage plane, or come back through it, before the next rebuild: only their margins reach it. Members of clumps
-/// are always noted, because the centre of a clump may be nearer than they are.
+/// are always noted, because the centre of a clump may be nearer than they are; so are those that have crossed, until they leave.
 fn note_near(state: &mut State) {
-    let p = &state.particles;
-    let near = |(zone, beyond): (&Zone, &BTreeSet<u32>)| {
+    let (p, zones) = (&state.particles, &state.zones);
+    let near = |(outlet, zone): (usize, &Zone)| {
+        let (beyond, crossed) = (&zones.beyond[outlet], &zones.crossed[outlet]);
         let stays = |k: usize| {
             let (home, margin) = (p.home[k].vector(), p.home[k][3]);
             let past = zone.past(&home, p.rows[k][3]);
-            !state.clumps.is_member(k) && (past < -margin || (past > margin && beyond.contains(&p.id[k])))
+            !state.clumps.is_member(k)
+                && !crossed.contains(&p.id[k])
+                && (past < -margin || (past > margin && beyond.contains(&p.id[k])))
         };
         (0..p.len() as u32).filter(|&k| !stays(k as usize)).collect()
     };
-    state.zones.near = state.zones.outlets.iter().zip(&state.zones.beyond).map(near).collect();
+    state.zones.near = zones.outlets.iter().enumerate().map(near).collect();
 }

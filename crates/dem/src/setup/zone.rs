@@ -33,7 +33,7 @@ pub enum ZoneMotion {
     Constant,
     /// x = x₀ + v₀ τ + ½ g τ²: free fall, without the fluid.
     Ballistic,
-    /// Outlet: ballistic, and the paths of particles are recorded that come near the storage plane. Inlet: along these paths.
+    /// Outlet: none, particles stay free, and the paths of those are recorded that come near the storage plane. Inlet: along these paths.
     Recorded,
 }
 

@@ -1,7 +1,7 @@
 //! Zones: particles that move by a prescribed motion, feel nothing, and act on others.
 //!
 //! Outlet: past the storage plane a particle's state is recorded and it goes on by the zone's motion to the exclusion
-//! plane. Inlet: a particle appears on the generation plane at its recorded time and goes on by the zone's motion to
+//! plane; where paths are recorded it goes on as the free particle that it is. Inlet: a particle appears on the generation plane at its recorded time and goes on by the zone's motion to
 //! the calculation plane, where it becomes free. JP5440448B2.
 //!
 //! A zone particle's row is overwritten after each move, so that the move itself needs no zones.
@@ -24,6 +24,8 @@ pub struct Zones {
     pub(crate) zone_particles: Vec<ZoneParticle>,
     /// For each outlet, free particles past its plane that never crossed it.
     pub(crate) beyond: Vec<BTreeSet<u32>>,
+    /// For each outlet, free particles that have crossed it and go on to its exclusion plane; only where paths are recorded.
+    pub(crate) crossed: Vec<BTreeSet<u32>>,
     pub(crate) pending: VecDeque<Entry>,
     pub(crate) crossings: Vec<Crossing>,
     /// For each outlet, particles that may be past its plane, or come back through it, until the next rebuild.
@@ -63,6 +65,7 @@ impl Zones {
             outlets: setup.outlets.clone(),
             inlets: setup.inlets.clone(),
             beyond: setup.outlets.iter().map(past).collect(),
+            crossed: vec![BTreeSet::new(); setup.outlets.len()],
             gone: flags.clone(),
             sampled: vec![BTreeSet::new(); setup.outlets.len()],
             prescribed: flags,
@@ -93,6 +96,11 @@ impl Zones {
     /// Whether particle `k` is neither in a zone nor out of the calculation.
     pub fn is_free(&self, k: usize) -> bool {
         !self.is_prescribed(k) && !self.is_gone(k)
+    }
+
+    /// Whether a free particle has crossed an outlet, and goes on to its exclusion plane.
+    pub(crate) fn has_crossed(&self, id: u32) -> bool {
+        self.crossed.iter().any(|crossed| crossed.contains(&id))
     }
 
     /// Whether particle `k` is in a zone.

@@ -43,8 +43,8 @@ pub fn explain_halt(halt: &Halt) -> String {
             return format!("{halt}: stiffen the material{}, {SOFTER}", of_stiffness(stiffer.as_deref()));
         }
         Halt::InletOverlap { .. } => {
-            "keep its zone free at the start, let slow grains start farther back (stage-replay --ahead), \
-             cut where nothing piles up to the plane, set guards.zones = \"remove\" where the other grain is one that came back, or raise guards.overlap"
+            "let grains come in along the paths that they took (motion = \"recorded\" in both stages), cut 3 to 4 grain diameters farther down where \
+             the stream is free, keep its zone free at the start, let slow grains start farther back (stage-replay --ahead), set guards.zones = \"remove\" where the other grain is one that came back, or raise guards.overlap"
         }
         Halt::Motion { .. } => "shorten dt or raise guards.motion",
         Halt::NotANumber { .. } => {

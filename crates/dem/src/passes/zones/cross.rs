@@ -13,9 +13,10 @@ use crate::passes::ledger::carried_in_the_middle;
 use crate::passes::touching::touching;
 use crate::passes::zones::held_back;
 use crate::passes::zones::muted::take_along;
+use crate::passes::zones::removed::take_out;
 use crate::passes::zones::travel::follow_motion;
 use crate::passes::zones::whole::{rows_with, test_point, test_point_before};
-use crate::setup::{Crossing, EntryClump, Particle, Touch, cluster_of};
+use crate::setup::{Crossing, EntryClump, Particle, Touch, ZoneMotion, cluster_of};
 use crate::state::clumps::starts;
 use crate::state::{Direction, ListStatus, State, ZoneParticle};
 use geom::Vec3;
@@ -27,6 +28,15 @@ enum PlanePassage {
     Past(f64),
     /// It was past it without a crossing, and has come back.
     Back,
+    /// It has crossed, gone on freely, and come back; or is through the zone.
+    Leaves(Leave),
+}
+
+/// How a particle that has crossed leaves, which was free in the zone.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Leave {
+    FallenBack,
+    Through,
 }
 
 /// b of the module's head.
@@ -36,9 +46,15 @@ fn since_passage(past: f64, speed: f64, acceleration: f64) -> f64 {
 }
 
 pub fn find_crossings(model: &Model, state: &mut State, lists: &NeighbourLists) {
-    let mut found = Vec::new();
+    let (mut found, mut leaving) = (Vec::new(), Vec::new());
     for outlet in 0..state.zones.outlets.len() {
-        cross_outlet(model, state, lists, outlet, &mut found);
+        cross_outlet(model, state, lists, outlet, (&mut found, &mut leaving));
+    }
+    for (k, outlet, leave) in leaving {
+        state.zones.crossed[outlet].remove(&state.particles.id[k]);
+        // One that falls back has been recorded all the same.
+        state.zones.lost.returned.fallen[outlet] += u64::from(leave == Leave::FallenBack);
+        take_out(model, state, lists, k);
     }
     // A particle that passes several planes in one step passes the first of them.
     found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.time.total_cmp(&b.1.time)).then(a.1.outlet.cmp(&b.1.outlet)));
@@ -49,13 +65,13 @@ pub fn find_crossings(model: &Model, state: &mut State, lists: &NeighbourLists) 
     state.zones.crossings.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.particle.id.cmp(&b.particle.id)));
 }
 
-/// Finds the particles that have passed one plane.
+/// Finds the particles that have passed one plane, and those that leave behind it.
 fn cross_outlet(
     model: &Model,
     state: &mut State,
     lists: &NeighbourLists,
     outlet: usize,
-    found: &mut Vec<(usize, Crossing)>,
+    (found, leaving): (&mut Vec<(usize, Crossing)>, &mut Vec<(usize, usize, Leave)>),
 ) {
     let left_margin = state.listing.status != ListStatus::Valid;
     let near = std::mem::take(&mut state.zones.near[outlet]);
@@ -73,6 +89,7 @@ fn cross_outlet(
                 state.zones.beyond[outlet].remove(&state.particles.id[k]);
                 state.zones.lost.returned.outlets[outlet] += 1;
             }
+            Some(PlanePassage::Leaves(leave)) => leaving.push((k, outlet, leave)),
             Some(PlanePassage::Past(past)) => {
                 let crossing = crossing(model, state, lists, k, outlet as u32, past);
                 // One that does not move with the flow has not passed yet: carried on by its velocity, it would never leave.
@@ -93,18 +110,33 @@ fn passage(state: &State, outlet: usize, k: usize) -> Option<PlanePassage> {
     }
     let (position, radius) = test_point(state, k)?;
     let past = zones.outlets[outlet].past(&position, radius);
+    if zones.crossed[outlet].contains(&id) {
+        let leave = if past < 0.0 { Leave::FallenBack } else { Leave::Through };
+        return (!(0.0..zones.outlets[outlet].length).contains(&past)).then_some(PlanePassage::Leaves(leave));
+    }
     let beyond = &zones.beyond[outlet];
     match past < 0.0 {
         true => beyond.contains(&id).then_some(PlanePassage::Back),
-        false => (!zones.prescribed[k] && !beyond.contains(&id)).then_some(PlanePassage::Past(past)),
+        false => {
+            let passes = !zones.prescribed[k] && !beyond.contains(&id) && !zones.has_crossed(id);
+            passes.then_some(PlanePassage::Past(past))
+        }
     }
 }
 
 /// Particle `k`, and all members of its clump, move by the motion of the zone from its passage on.
+///
+/// Where paths are recorded they stay free: a prescribed motion, of which forces change nothing, would hold back what is denser than free fall, as a
+/// stream is that has just left a mouth.
 fn take_over(model: &Model, state: &mut State, lists: &NeighbourLists, k: usize, crossing: Crossing) {
     held_back::count(state, k, &crossing);
-    let since = crossing.time;
-    let zone = state.zones.outlets[crossing.outlet as usize];
+    let (since, outlet) = (crossing.time, crossing.outlet as usize);
+    let zone = state.zones.outlets[outlet];
+    if zone.motion == ZoneMotion::Recorded {
+        state.zones.crossed[outlet].insert(state.particles.id[k]);
+        state.zones.crossings.push(crossing);
+        return;
+    }
     if model.setup.ledger {
         book_leaving(model, state, k);
         take_along(model, state, lists, k);

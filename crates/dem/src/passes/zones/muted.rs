@@ -31,11 +31,13 @@ pub fn power_of_passive(state: &State, lists: &NeighbourLists, k: usize, moving:
 
 /// Force [N] on particle `k` of a zone of its contacts that act on nothing.
 pub fn force_of_passive(state: &State, lists: &NeighbourLists, k: usize) -> Vec3 {
-    let of = |end: SlotEnd| {
-        let force = state.contacts.force(end.slot());
-        if end.is_second() { -force } else { force }
-    };
-    passive(state, lists, k).map(of).sum()
+    passive(state, lists, k).map(|end| force_at(state, end)).sum()
+}
+
+/// Force [N] of a contact on the particle at this end.
+pub fn force_at(state: &State, end: SlotEnd) -> Vec3 {
+    let force = state.contacts.force(end.slot());
+    if end.is_second() { -force } else { force }
 }
 
 /// Energy [J] that contact `end` of particle `k` holds half a step before the instant of its row, or after it.

@@ -28,6 +28,7 @@ fn sample_paths_of(model: &Model, state: &mut State, outlet: usize, out: &mut Ve
         if !(zone.past(&position, radius) >= -EARLY * zone.length)
             || !state.zones.is_free(k)
             || state.zones.beyond[outlet].contains(&id)
+            || state.zones.has_crossed(id)
         {
             continue;
         }
@@ -37,10 +38,10 @@ fn sample_paths_of(model: &Model, state: &mut State, outlet: usize, out: &mut Ve
     let now: BTreeSet<u32> = out[first..].iter().map(|s| s.particle.id).collect();
     let before = std::mem::replace(&mut state.zones.sampled[outlet], now);
     let now = &state.zones.sampled[outlet];
-    // Those that are not free any more have passed: their crossing ends the path.
+    // Those that have passed, or are not free any more, did not go back: their crossing ends the path.
     let gone = |k: &usize| {
         let id = &state.particles.id[*k];
-        before.contains(id) && !now.contains(id) && state.zones.is_free(*k)
+        before.contains(id) && !now.contains(id) && state.zones.is_free(*k) && !state.zones.has_crossed(*id)
     };
     let mut ids: Vec<(u32, usize)> =
         (0..state.particles.len()).filter(gone).map(|k| (state.particles.id[k], k)).collect();

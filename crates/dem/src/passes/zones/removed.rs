@@ -1,5 +1,5 @@
-//! Particles that have gone back through the inlet that they came by, and are taken out of the calculation: once they are through its whole
-//! zone, or where they are in the way of one that comes in.
+//! Free particles that are taken out of the calculation; those that have gone back through the inlet that they came by: once they are through its
+//! whole zone, or where they are in the way of one that comes in.
 
 use crate::model::{Halt, Model, Partner};
 use crate::neighbours::NeighbourLists;
@@ -67,6 +67,11 @@ fn remove_behind(model: &Model, state: &mut State, lists: &NeighbourLists, k: us
 /// Takes out free particle `k`, with all members of its clump, and counts it for its inlet.
 pub fn remove(model: &Model, state: &mut State, lists: &NeighbourLists, k: usize, inlet: u32) {
     state.zones.lost.returned.removed[inlet as usize] += 1;
+    take_out(model, state, lists, k);
+}
+
+/// Takes out free particle `k`, with all members of its clump.
+pub fn take_out(model: &Model, state: &mut State, lists: &NeighbourLists, k: usize) {
     if model.setup.ledger {
         book_leaving(model, state, k);
     }
