@@ -82,6 +82,8 @@ pub struct PerFrame<M> {
     measure: M,
     which: Which,
     within: Option<Within>,
+    /// How many grains have fallen past all walls and are left out, of how many; `None`: they count.
+    fallen: Option<[usize; 2]>,
     kept: Option<Frame>,
     /// Times of the first and the last frame [s].
     span: Option<(f64, f64)>,
@@ -91,12 +93,18 @@ pub struct PerFrame<M> {
 impl<M: OfFrame> PerFrame<M> {
     /// Measures the frames that are chosen.
     pub fn new(measure: M, which: Which) -> PerFrame<M> {
-        PerFrame { measure, which, within: None, kept: None, span: None, measured: 0 }
+        PerFrame { measure, which, within: None, fallen: None, kept: None, span: None, measured: 0 }
     }
 
     /// Only the grains whose centres a shape holds; `None`: all.
     pub fn within(mut self, shape: Option<Shape>) -> PerFrame<M> {
         self.within = shape.map(Within::new);
+        self
+    }
+
+    /// Without grains that have fallen past all walls, and fall on: they belong to nothing that has a surface.
+    pub fn without_fallen(mut self) -> PerFrame<M> {
+        self.fallen = Some([0; 2]);
         self
     }
 }
@@ -145,6 +153,17 @@ impl<M: OfFrame> Observer for PerFrame<M> {
         if !self.which.holds(run, frame.time) {
             return Ok(());
         }
+        let frame = match (&mut self.fallen, run.walls_end) {
+            (Some(fallen), Some((down, depth))) => {
+                let there = |row: usize| frame.position[row].dot(&down) - frame.radius[row] <= depth;
+                let rest = frame.only(there);
+                if !frame.is_empty() {
+                    *fallen = [frame.len() - rest.len(), frame.len()];
+                }
+                rest
+            }
+            _ => frame,
+        };
         let frame = match &mut self.within {
             Some(within) => within.of(&frame),
             None => frame,
@@ -170,7 +189,12 @@ impl<M: OfFrame> Observer for PerFrame<M> {
         }
         let (more, summary) = self.measure.end()?;
         rows.extend(more);
-        Ok(summary)
+        Ok(match self.fallen {
+            Some([fallen, of]) if fallen > 0 => {
+                summary.note(format!("{fallen} of {of} grains have fallen past all walls and are left out"))
+            }
+            _ => summary,
+        })
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {

@@ -8,7 +8,7 @@ use crate::settling::Settled;
 use crate::{Bonds, MeasureError, WallForces, table::Columns};
 use geom::{Plane, Shape, Vec3};
 use record::column::{POSITION, RADIUS, WALL};
-use record::metadata::{MATERIALS, OUTLETS, SCENE, TIME};
+use record::metadata::{MATERIALS, OUTLETS, SCENE, TIME, WALLS_END};
 use record::topic::{
     BODIES, BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES,
     WALLS,
@@ -76,6 +76,8 @@ pub struct Run {
     pub outlets: Vec<Plane>,
     /// Direction against gravity [–]; `None` without gravity.
     pub up: Option<Vec3>,
+    /// Direction of gravity [–] and how far along it any wall reaches [m]; `None` where grains cannot fall past all of them, or it is not known.
+    pub walls_end: Option<(Vec3, f64)>,
     /// Acceleration of free fall [m/s²]; 0 where it is not known.
     pub gravity: f64,
     /// The periodic box as it is now.
@@ -90,6 +92,13 @@ pub struct Run {
     pub ending: Ending,
     /// A frame with clumps, whose message comes next.
     pub(crate) waiting: Option<Frame>,
+}
+
+/// [`Run::walls_end`] of its record.
+fn walls_end(map: &BTreeMap<String, String>) -> Option<(Vec3, f64)> {
+    let numbers: Vec<f64> = map.get("down")?.split(',').map(str::parse).collect::<Result<_, _>>().ok()?;
+    let &[x, y, z] = numbers.as_slice() else { return None };
+    Some((Vec3::new(x, y, z), map.get("depth")?.parse().ok()?))
 }
 
 impl Run {
@@ -172,6 +181,7 @@ impl Run {
                 self.densities = all.iter().map(|m| m["density"].as_f64().unwrap_or(f64::NAN)).collect();
             }
             TIME => self.step = map.get("dt").and_then(|dt| dt.parse().ok()).unwrap_or(0.0),
+            WALLS_END => self.walls_end = walls_end(map),
             OUTLETS => self.outlets = all.iter().filter_map(plane).collect(),
             SCENE => {
                 let text = map.get("toml").map_or("", String::as_str);

@@ -6,6 +6,8 @@ pub const SCENE: &str = "scene";
 pub const MATERIALS: &str = "materials";
 /// Time step, first and last time of a run [s].
 pub const TIME: &str = "time";
+/// How far along gravity, `down` [–], any wall of a run reaches, `depth` [m]; only where grains may fall past all of them.
+pub const WALLS_END: &str = "walls_end";
 /// Radii of all particles, see [`crate::Sizes`].
 pub const SIZES: &str = "sizes";
 /// Key of [`SIZES`] that is there when all particles are members of clumps.

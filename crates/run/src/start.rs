@@ -12,7 +12,7 @@ use geom::Shown;
 use record::{BondRange, Map, MaterialRecord, Sizes, json, metadata};
 use scene::input::ZoneRecord;
 use scene::plan::NO_DENSITY;
-use scene::{Plan, Scene, SceneError};
+use scene::{Below, Plan, Scene, SceneError};
 use stages::outlet::path;
 use std::io::Write;
 use stream::mcap::Writer;
@@ -45,6 +45,12 @@ impl<W: Write> Run<W> {
         let begins = settings.earlier.as_ref().map_or(sim.time(), |earlier| earlier.start);
         for (name, record) in head.records([sim.dt(), begins], &schedule, written.sampling) {
             writer.metadata(name, record)?;
+        }
+        if let Some(Below { down, depth }) = below {
+            let down = format!("{},{},{}", down.x, down.y, down.z);
+            let end =
+                [("down", down), ("depth", depth.to_string())].map(|(key, text)| (key.to_owned(), text));
+            writer.metadata(metadata::WALLS_END, Map::from(end))?;
         }
         let first = sim.steps();
         let mut run = Run {

@@ -13,6 +13,7 @@ mod docs;
 mod every_key;
 mod every_option;
 mod example_scenes;
+mod fallen;
 mod help_examples;
 mod lab_folders;
 mod lab_speed;

@@ -136,7 +136,7 @@ pub struct Args {
     /// The heap leans on a wall at this side: x- x+ y- y+ z- z+ [repose]
     #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true, help_heading = "How")]
     pub side: Option<Vec3>,
-    /// Only inside SHAPE: the grains of the heap, without falling ones [repose], the crossings [flow]; the box of the grid [profile]; the grains of the first frame [strain]
+    /// Only inside SHAPE: the grains of the heap, without falling ones [repose], the crossings [flow]; the box of the grid [profile]; the grains of the first frame [strain]; the grains of the bed [bed-height]
     #[arg(long, value_name = "SHAPE", value_parser = shape, help_heading = "How")]
     pub within: Option<GivenShape>,
     /// Rows for spans of S [s] (default: from frame to frame) [flow]
@@ -214,7 +214,11 @@ impl Args {
             ("--bin", self.bin.is_some(), &["--repose", "--bed-slope"]),
             ("--ground", self.ground.is_some(), &["--repose", "--bed-height"]),
             ("--side", self.side.is_some(), &["--repose"]),
-            ("--within", self.within.is_some(), &["--repose", "--flow", "--profile", "--strain"]),
+            (
+                "--within",
+                self.within.is_some(),
+                &["--repose", "--flow", "--profile", "--strain", "--bed-height"],
+            ),
             ("--span", self.span.is_some(), &["--flow"]),
             ("--axis", self.axis.is_some(), &["--profile"]),
             ("--bins", self.bins.is_some(), &["--profile"]),

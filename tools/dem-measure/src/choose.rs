@@ -39,7 +39,9 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
     let observer: Box<dyn Observer> = match (args, name) {
         (_, "--repose") => {
             let within = args.within.as_ref().map(|g| g.shape.clone());
-            Box::new(PerFrame::new(Repose::new(heap(args)).context(name)?, single).within(within))
+            Box::new(
+                PerFrame::new(Repose::new(heap(args)).context(name)?, single).within(within).without_fallen(),
+            )
         }
         (Args { flow: Some(plane), .. }, _) => {
             let within = args.within.as_ref().map(|g| g.shape.clone());
@@ -93,9 +95,13 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
         (Args { residence: Some(given), .. }, _) => Box::new(Residence::new(given.shape.clone(), between)),
         (_, "--impact") => Box::new(Impacts::new(between)),
         (Args { bed_slope: Some(side), .. }, _) => {
-            Box::new(PerFrame::new(BedSlope::new(slope(args, *side)).context(name)?, series))
+            Box::new(PerFrame::new(BedSlope::new(slope(args, *side)).context(name)?, series).without_fallen())
         }
-        (_, "--bed-height") => Box::new(PerFrame::new(BedHeight::new(args.up, args.ground), single)),
+        (_, "--bed-height") => {
+            let within = args.within.as_ref().map(|g| g.shape.clone());
+            let height = BedHeight::new(args.up, args.ground);
+            Box::new(PerFrame::new(height, single).within(within).without_fallen())
+        }
         _ => Box::new(ContactNumbers::new(series)),
     };
     Ok((name, observer))
