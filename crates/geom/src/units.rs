@@ -73,6 +73,9 @@ pub fn parse(text: &str, unit: &'static str) -> Result<f64, UnitError> {
     let whole = || text.to_owned();
     let (number, symbols) = split(text.trim());
     let value: f64 = number.parse().map_err(|_| UnitError::Number { text: whole() })?;
+    if symbols.is_empty() && value == 0.0 {
+        return Ok(0.0);
+    }
     if symbols.is_empty() {
         return Err(UnitError::Missing { text: whole(), unit: if unit.is_empty() { "%" } else { unit } });
     }

@@ -27,8 +27,13 @@ impl Scene {
     pub fn new(name: &str, toml: String, overrides: &[String], folder: &Path) -> Result<Scene> {
         let mut text = Text::new(name, toml.clone());
         if !overrides.is_empty() {
-            // Errors of the file itself name places in the file itself.
-            parse(&text)?;
+            // Errors of the file itself name places in the file itself; what the overrides cure is none.
+            if let Err(error) = parse(&text) {
+                let mut changed = text.clone();
+                if changed.set(overrides).and_then(|()| parse(&changed).map(drop)).is_err() {
+                    return Err(error);
+                }
+            }
             text.set(overrides)?;
         }
         let keys = parse(&text).map_err(|error| blame(error, name, &toml, overrides))?;

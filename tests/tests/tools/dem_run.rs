@@ -1,6 +1,7 @@
 //! A run is exact, resumes bit for bit, and what stops it leaves a file that can be read.
 
 mod at_rest;
+mod combined;
 mod continued;
 mod device;
 mod fallen;

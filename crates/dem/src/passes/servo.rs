@@ -28,6 +28,7 @@ use crate::neighbours::NeighbourLists;
 use crate::neighbours::poses::pose;
 use crate::passes::touching::position_before;
 use crate::setup::{Length, Servo, WallShape};
+use crate::state::clumps::FREE;
 use crate::state::{Governor, Held, State};
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
@@ -50,7 +51,7 @@ pub struct WallForce {
     pub force: Vec3,
     /// How far the wall has been shifted since t = 0 [m], its turn apart.
     pub shift: Vec3,
-    /// Number of contacts.
+    /// Number of grains that touch it; a clump is one.
     pub contacts: u32,
     /// What its servo follows, and how well.
     pub servo: Option<ServoReport>,
@@ -78,7 +79,7 @@ pub fn wall_forces(model: &Model, state: &State, lists: &NeighbourLists) -> Vec<
         let servo = model.walls[w].servo.as_ref();
         let servo = servo.map(|s| ServoReport { push: along(s), ..report(model, state, w, s) });
         let shift = pose(model, state, w, time).shift();
-        WallForce { force: -push.force, shift, contacts: push.contacts, servo }
+        WallForce { force: -push.force, shift, contacts: push.grains, servo }
     };
     (0..model.walls.len()).map(of).collect()
 }
@@ -120,8 +121,10 @@ fn target(servo: &Servo, area: Option<f64>, time: f64) -> f64 {
 pub struct Push {
     /// Force on the particles [N].
     pub force: Vec3,
-    /// How many push.
+    /// How many contacts push.
     pub contacts: u32,
+    /// How many grains do: one that touches several spheres of the wall, or a clump that touches it in several places, is one.
+    pub grains: u32,
     /// Sum of what `response` gives for each contact.
     pub response: f64,
 }
@@ -134,18 +137,28 @@ pub fn wall_push(
     wall: usize,
     response: impl Fn(usize, usize) -> f64,
 ) -> Push {
-    let mut push = Push::default();
+    let (mut push, mut bodies) = (Push::default(), Vec::new());
+    let clump = |k: u32| state.clumps.of.get(k as usize).copied().filter(|&clump| clump != FREE);
+    let body = |k: u32| clump(k).map_or(k, |clump| state.particles.len() as u32 + clump);
     for (at, segment) in lists.slots.segments.iter().enumerate().filter(|(_, s)| s.with == With::Wall(wall)) {
         let acts = |slot: &usize| !state.zones.is_idle(lists.slots.ends(segment, *slot));
         for slot in segment.contacts().filter(acts) {
             let force = state.contacts.force(slot);
             if force != Vec3::zeros() {
                 push.contacts += 1;
+                let grain = body(lists.slots.i[slot]);
+                if bodies.last() != Some(&grain) {
+                    bodies.push(grain);
+                }
                 push.response += response(at, slot);
             }
             push.force += force;
         }
     }
+    // Contacts of one particle follow each other, those of one clump need not.
+    bodies.sort_unstable();
+    bodies.dedup();
+    push.grains = bodies.len() as u32;
     push
 }
 

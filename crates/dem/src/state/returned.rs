@@ -108,7 +108,8 @@ impl Zones {
     /// How far a free particle is behind the calculation plane that it came by, less the length of the zone: above 0 it is behind
     /// the generation plane; and its inlet. Counts those that come back.
     pub(crate) fn came_back(&mut self, k: usize, position: &Vec3, radius: f64) -> Option<(u32, f64)> {
-        let origin = self.lost.origins[k];
+        // None is watched where all that comes in is inserted.
+        let origin = *self.lost.origins.get(k)?;
         if origin.inlet == 0 || self.gone[k] || self.prescribed[k] {
             return None;
         }

@@ -20,6 +20,7 @@ use crate::space::sphere::{FAR, is_away};
 use crate::walls::seams::{HistorySlots, Nearest};
 use geom::motion::{Pose, SurfaceMotion};
 use geom::{Boxes, Grid, Motion, Plane, Vec3};
+use std::collections::HashSet;
 
 /// A wall, ready to be met.
 #[derive(Debug, Clone)]
@@ -61,6 +62,8 @@ enum Surface {
     Triangles {
         corners: Vec<[Vec3; 3]>,
         boxes: Boxes,
+        /// Whether each lies on one before it, and so is never touched; empty where none does.
+        doubled: Vec<bool>,
     },
 }
 
@@ -74,7 +77,7 @@ impl WallBody {
                 let corners: Vec<[Vec3; 3]> = mesh.triangles().collect();
                 let around = |t: &[Vec3; 3]| [t[0].inf(&t[1]).inf(&t[2]), t[0].sup(&t[1]).sup(&t[2])];
                 let boxes: Vec<[Vec3; 2]> = corners.iter().map(around).collect();
-                Surface::Triangles { boxes: Boxes::new(&boxes), corners }
+                Surface::Triangles { boxes: Boxes::new(&boxes), doubled: doubled(&corners), corners }
             }
         };
         let span = |axis: &Vec3| span(&wall.shape, axis);
@@ -185,9 +188,12 @@ impl WallBody {
                     found(0);
                 }
             }
-            Surface::Triangles { corners, boxes } => {
+            Surface::Triangles { corners, boxes, doubled } => {
                 let mut near = Vec::new();
                 boxes.near(p, reach, |k| near.push(k));
+                if !doubled.is_empty() {
+                    near.retain(|k| !doubled[*k as usize]);
+                }
                 near.sort_unstable();
                 for k in near {
                     if Nearest::of(corners[k as usize], p).way.norm_squared() < reach * reach {
@@ -297,6 +303,21 @@ fn sorted_spheres(spheres: &[(Vec3, f64)]) -> Surface {
     let grid = Grid::new(&centres, order::cell_of_spheres(spheres));
     let radii = order.iter().map(|&k| spheres[k as usize].1).collect();
     Surface::Spheres { centres, radii, grid, largest, original: order }
+}
+
+/// Which triangles have the corners of one before them, in any order, as those of drawings whose faces are there from both sides: one that is touched in
+/// the other's place would begin without its contact history. Empty where none has.
+fn doubled(corners: &[[Vec3; 3]]) -> Vec<bool> {
+    let mut seen = HashSet::with_capacity(corners.len());
+    // + 0 makes one zero of two.
+    let bits = |v: &Vec3| [v.x, v.y, v.z].map(|x| (x + 0.0).to_bits());
+    let again = |triangle: &[Vec3; 3]| {
+        let mut key = triangle.each_ref().map(bits);
+        key.sort_unstable();
+        !seen.insert(key)
+    };
+    let doubled: Vec<bool> = corners.iter().map(again).collect();
+    if doubled.contains(&true) { doubled } else { Vec::new() }
 }
 
 /// Lowest and highest corner; a plane has none along the axes that lie in it, so that it has no image there.

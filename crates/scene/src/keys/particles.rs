@@ -57,7 +57,7 @@ pub struct Clump {
 #[serde(deny_unknown_fields)]
 pub struct ClumpMoments {
     /// Volume [m³].
-    #[serde(deserialize_with = "unit::plain")]
+    #[serde(deserialize_with = "unit::cubic_metres")]
     pub volume: f64,
     /// Centre of mass [m].
     #[serde(deserialize_with = "unit::metres")]
@@ -244,6 +244,7 @@ pub struct Insert {
     #[serde(default, deserialize_with = "unit::seconds")]
     pub until: Option<f64>,
     /// Mass after which it closes [kg]; absent: none.
+    #[serde(default, deserialize_with = "unit::kilograms")]
     pub mass: Option<f64>,
     /// Number after which it closes; absent: none.
     pub count: Option<u64>,

@@ -48,6 +48,7 @@ macro_rules! units {
 units! {
     metres "m" "8 mm";
     square_metres "m²" "20 cm²";
+    cubic_metres "m³" "2 cm³";
     seconds "s" "20 ms";
     kilograms "kg" "2 t";
     kilograms_a_second "kg/s" "1.5 t/h";
@@ -60,6 +61,7 @@ units! {
     hertz "Hz" "50 Hz";
     newtons "N" "2 kN";
     newtons_a_metre "N/m" "2 kN/m";
+    newton_seconds_a_metre "N·s/m" "2 kN·s/m";
     pascals_a_metre "Pa/m" "2 GPa/m";
     joules "J" "1 mJ";
     pascals "Pa" "5 MPa";

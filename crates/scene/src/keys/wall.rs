@@ -179,7 +179,7 @@ pub struct Spring {
     #[serde(deserialize_with = "unit::newtons_a_metre")]
     pub stiffness: f64,
     /// Of the dashpot [N·s/m].
-    #[serde(default, deserialize_with = "unit::plain")]
+    #[serde(default, deserialize_with = "unit::newton_seconds_a_metre")]
     pub damping: f64,
     /// Mass of the wall [kg].
     #[serde(deserialize_with = "unit::kilograms")]

@@ -5,6 +5,7 @@
 //! of placing ([`packing`], [`random`], [`fill`]). Warnings about implausible values come last ([`warnings`]).
 
 mod accuracy;
+mod adhesive_walls;
 mod below;
 mod bonds;
 mod builder;

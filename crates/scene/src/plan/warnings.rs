@@ -24,6 +24,7 @@ impl PlanBuilder<'_> {
     pub(super) fn warn(&mut self, contacts: &[ContactLaw]) {
         self.implausible();
         self.lost_spins(contacts);
+        self.adhesive_walls(contacts);
         self.forces_of_servos();
         self.late();
         self.bonds_to_fixed();

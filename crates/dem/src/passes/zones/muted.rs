@@ -90,13 +90,16 @@ fn power_at(state: &State, end: SlotEnd, moving: &Particle) -> f64 {
     (moment - torque * 2.0).dot(&moving.spin) - force.dot(&moving.velocity)
 }
 
-/// After forces: takes what acts on nothing out of the ledger's rows.
+/// After forces: takes what acts on nothing out of the ledger's rows, and contacts of those that are out of the calculation: a law that adheres
+/// would release what it held at the place where they wait for the next listing.
 pub fn mute(model: &Model, state: &mut State, lists: &NeighbourLists) {
-    if !model.setup.ledger || state.zones.zone_particles.is_empty() {
+    let zones = &state.zones;
+    if !model.setup.ledger || (zones.zone_particles.is_empty() && zones.left.is_empty()) {
         return;
     }
-    let muted: Vec<SlotEnd> =
-        state.zones.zone_particles.iter().flat_map(|t| passive(state, lists, t.at as usize)).collect();
+    let of_zones = zones.zone_particles.iter().flat_map(|t| passive(state, lists, t.at as usize));
+    let of_gone = zones.left.iter().flat_map(|(k, _)| lists.slots.of_particle(*k as usize)).copied();
+    let muted: Vec<SlotEnd> = of_zones.chain(of_gone).collect();
     for end in muted {
         state.contacts.ledger[end.slot() * LEDGER..][..LEDGER].fill(0.0);
     }
