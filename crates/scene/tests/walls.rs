@@ -136,3 +136,55 @@ fn what_cannot_be_says_where_and_what_to_do() {
     folder.refused("solid = \"box:0,0,0,1,1,0\"", &["wall.0.solid", "thickness"]);
     folder.refused("solid = \"!box:0,0,0,1,1,1\"", &["take the ! out"]);
 }
+
+/// Turned by 90° about z through (1, 0, 0), then shifted: (x, y, z) ↦ (1 − y, x − 1, z + 2).
+#[test]
+fn walls_of_every_kind_are_put_in_their_place() {
+    let folder = Folder::new("place", &[("gate.obj", TRIANGLE)]);
+    let place = "place = { rotate = { about = [0, 0, 1], through = [1, 0, 0], angle = \"90 deg\" }, translate = [0, 0, 2] }\n";
+    let right = |at: &Vec3| Vec3::new(1.0 - at.y, at.x - 1.0, at.z + 2.0);
+    let kinds = [
+        "plane = \"0.3,0.2,0.1,0,1,1\"\n",
+        "box = [0, 0, -1, 1, 2, 3]\nfaces = [\"x-\", \"y+\"]\n",
+        "solid = \"box:0,0,0,1,2,3\"\n",
+        "solid = \"sphere:0.1,0.2,0.3,0.5\"\n",
+        "mesh = \"gate.obj\"\n",
+    ];
+    for kind in kinds {
+        let (drawn, put) = (folder.walls(kind).unwrap(), folder.walls(&(kind.to_owned() + place)).unwrap());
+        let two = format!(
+            "{kind}place = [{{ rotate = {{ about = [0, 0, 1], angle = 1.5707963267948966 }} }}, {{ translate = [1, -1, 2] }}]"
+        );
+        let steps = folder.walls(&two).unwrap();
+        assert_eq!(drawn.len(), put.len());
+        for ((drawn, put), steps) in drawn.iter().zip(&put).zip(&steps) {
+            for put in [put, steps] {
+                match (&drawn.shape, &put.shape) {
+                    (WallShape::Plane(a), WallShape::Plane(b)) => {
+                        assert!((right(&a.point) - b.point).norm() < 1e-14, "{kind}");
+                        let normal = right(&(a.point + a.normal)) - right(&a.point);
+                        assert!((normal - b.normal).norm() < 1e-14, "{kind}");
+                    }
+                    (WallShape::Mesh(a), WallShape::Mesh(b)) => {
+                        assert_eq!(a.faces, b.faces);
+                        let far = a.vertices.iter().zip(&b.vertices).map(|(a, b)| (right(a) - b).norm());
+                        assert!(far.fold(0.0, f64::max) < 1e-13, "{kind}");
+                    }
+                    (WallShape::Spheres(a), WallShape::Spheres(b)) => {
+                        assert!((right(&a[0].0) - b[0].0).norm() < 1e-14 && a[0].1 == b[0].1, "{kind}");
+                    }
+                    _ => panic!("{kind}: another kind of wall"),
+                }
+            }
+        }
+    }
+    let belt =
+        folder.walls(&format!("plane = \"0,0,0,0,0,1\"\nsurface_velocity = [2, 0, 0]\n{place}")).unwrap();
+    assert!((belt[0].surface.velocity - Vec3::new(0.0, 2.0, 0.0)).norm() < 1e-14);
+    folder.refused(&format!("{PLANE}place = {{ }}"), &["wall.0.place", "puts nothing anywhere"]);
+    folder.refused(
+        &format!("{PLANE}place = {{ rotate = {{ about = [0, 0, 0], angle = 1 }} }}"),
+        &["wall.0.place.rotate.about"],
+    );
+    folder.refused(&format!("{PLANE}place = {{ shift = [0, 0, 1] }}"), &["shift"]);
+}

@@ -2,7 +2,7 @@
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Motion, Path, Rotate, SceneKeys, Wall};
+use crate::keys::{Motion, Path, Place, Rotate, SceneKeys, Wall};
 use geom::units;
 
 impl Check<'_> {
@@ -27,6 +27,7 @@ impl Check<'_> {
             return Err(self.wrong(&format!("{entry}.faces"), "(given)", "only a box has faces", cure));
         }
         self.mesh_scale(entry, w)?;
+        self.place(&format!("{entry}.place"), w.place.as_deref())?;
         if let Some(b) = w.cuboid {
             let key = format!("{entry}.box");
             self.finite(&key, &b, "m")?;
@@ -39,6 +40,25 @@ impl Check<'_> {
         w.spring.as_ref().map_or(Ok(()), |s| self.spring(entry, w, s))?;
         self.belt(entry, w)?;
         w.motion.as_ref().map_or(Ok(()), |list| self.motions(&format!("{entry}.motion"), list))
+    }
+
+    /// Turns and shifts.
+    fn place(&self, entry: &str, steps: Option<&[Place]>) -> Result<()> {
+        let Some(steps) = steps else { return Ok(()) };
+        for (k, step) in steps.iter().enumerate() {
+            let key = if steps.len() == 1 { entry.to_owned() } else { format!("{entry}.{k}") };
+            if step.rotate.is_none() && step.translate.is_none() {
+                let cure = "add rotate = { about = [0, 1, 0], angle = \"10 deg\" } or translate = [0, 0, 1], or take it out";
+                return Err(self.wrong(&key, "{ }", "puts nothing anywhere", cure));
+            }
+            if let Some(turn) = &step.rotate {
+                self.direction(&format!("{key}.rotate.about"), turn.about, "such as [0, 0, 1]")?;
+                self.finite(&format!("{key}.rotate.through"), &turn.through, "m")?;
+                self.finite(&format!("{key}.rotate.angle"), &[turn.angle], "rad")?;
+            }
+            self.finite(&format!("{key}.translate"), &step.translate.unwrap_or_default(), "m")?;
+        }
+        Ok(())
     }
 
     /// `scale` and `units` of a drawing.

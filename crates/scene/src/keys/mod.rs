@@ -10,6 +10,7 @@ mod domain;
 mod forms;
 mod geometry;
 mod particles;
+mod place;
 mod servo;
 mod unit;
 mod wall;
@@ -19,6 +20,7 @@ pub use calculation::*;
 pub use contact::*;
 pub use domain::*;
 pub use particles::*;
+pub use place::*;
 pub use servo::*;
 pub use wall::*;
 

@@ -1,6 +1,7 @@
 //! Walls and how they move.
 
-use super::{Servo, forms, geometry, unit};
+use super::{Place, Placement, Servo, forms, geometry, unit};
+use dem::setup::WallShape;
 use geom::{Plane, Vec3};
 use serde::Deserialize;
 
@@ -30,6 +31,9 @@ pub struct Wall {
     pub cuboid: Option<[f64; 6]>,
     /// Which faces of the box there are; absent: all six.
     pub faces: Option<Vec<Face>>,
+    /// Where it is put, step by step; absent: where it is drawn.
+    #[serde(default, deserialize_with = "forms::one_or_more")]
+    pub place: Option<Vec<Place>>,
     /// Material; walls of an MCAP name their own.
     pub material: Option<String>,
     /// Motion, or several that act one after the other; absent: at rest.
@@ -97,11 +101,25 @@ impl Wall {
         length_factor(self.scale, self.units.as_deref())
     }
 
-    /// The faces of a box with their planes; none of other walls.
+    /// The faces of a box with their planes, where they are put; none of other walls.
     pub fn sides(&self) -> Vec<(Face, Plane)> {
         let Some(corners) = self.cuboid else { return Vec::new() };
-        let faces = self.faces.as_deref().unwrap_or(&Face::ALL);
-        faces.iter().map(|face| (*face, face.plane(&corners))).collect()
+        let (faces, place) = (self.faces.as_deref().unwrap_or(&Face::ALL), self.placement());
+        let put = |plane: Plane| place.map_or(plane, |place| place.plane(&plane));
+        faces.iter().map(|face| (*face, put(face.plane(&corners)))).collect()
+    }
+
+    /// Where it is put; `None` where it is drawn.
+    pub fn placement(&self) -> Option<Placement> {
+        Placement::of(self.place.as_deref()?)
+    }
+
+    /// A surface of it that is drawn like this, where it is put.
+    pub fn put(&self, shape: WallShape) -> WallShape {
+        match self.placement() {
+            Some(place) => place.shape(shape),
+            None => shape,
+        }
     }
 }
 

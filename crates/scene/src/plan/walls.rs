@@ -120,8 +120,8 @@ impl PlanBuilder<'_> {
                 if *velocity != Vec3::zeros() && file.velocities.len() > 1 {
                     name += &format!(" belt {n}");
                 }
-                let mut wall = self.wall(key, entry, name, index, WallShape::Spheres(spheres))?;
-                wall.surface.velocity += velocity;
+                let mut wall = self.wall(key, entry, name, index, entry.put(WallShape::Spheres(spheres)))?;
+                wall.surface.velocity += entry.placement().map_or(*velocity, |place| place.vector(velocity));
                 self.walls.push(wall);
             }
         }
@@ -142,6 +142,10 @@ impl PlanBuilder<'_> {
         surface.velocity = Vec3::from(entry.surface_velocity.unwrap_or_default());
         if let Some(r) = &entry.surface_rotation {
             (surface.turn, surface.through) = (turn(r), Vec3::from(r.through));
+        }
+        if let Some(place) = entry.placement() {
+            surface.velocity = place.vector(&surface.velocity);
+            (surface.turn, surface.through) = (place.vector(&surface.turn), place.point(&surface.through));
         }
         let servo = entry.servo.as_ref().map(|s| self.servo(&format!("{key}.servo"), s)).transpose()?;
         let mount = entry.spring.as_ref().map(|s| setup::Mount {
@@ -171,9 +175,12 @@ impl PlanBuilder<'_> {
                     self.check.wrong(&path_key, format!("\"{}\"", path.source), &e.to_string(), cure)
                 })?;
                 if !table.moves() {
-                    let why = "all its rows are alike: it moves nothing";
-                    let value = format!("\"{}\"", path.source);
-                    return Err(self.check.wrong(&path_key, value, why, "take it out"));
+                    // In a sweep one of the paths may be that of rest.
+                    let (why, value) =
+                        ("all its rows are alike: it moves nothing", format!("\"{}\"", path.source));
+                    let warning =
+                        self.check.wrong(&path_key, value, why, "take it out if nothing is to move");
+                    self.warnings.push(warning.to_string());
                 }
                 if let Some(through) = path.through {
                     motion.through = Vec3::from(through);
@@ -189,17 +196,17 @@ impl PlanBuilder<'_> {
     fn surfaces(&self, key: &str, name: &str, entry: &Wall) -> Result<Vec<(String, WallShape)>> {
         if let Some(text) = &entry.plane {
             let plane = plane(&self.check, &format!("{key}.plane"), text)?;
-            return Ok(vec![(name.to_owned(), WallShape::Plane(plane))]);
+            return Ok(vec![(name.to_owned(), entry.put(WallShape::Plane(plane)))]);
         }
         if let Some(file) = &entry.mesh {
             let mesh = read_mesh(&self.path(file), entry.length_factor())?;
-            return Ok(vec![(name.to_owned(), WallShape::Mesh(mesh))]);
+            return Ok(vec![(name.to_owned(), entry.put(WallShape::Mesh(mesh)))]);
         }
         if let Some(text) = &entry.solid {
             let key = format!("{key}.solid");
             let shape = solids::wall(&self.shape(&key, text)?)
                 .map_err(|(why, cure)| self.check.wrong(&key, format!("\"{text}\""), why, cure))?;
-            return Ok(vec![(name.to_owned(), shape)]);
+            return Ok(vec![(name.to_owned(), entry.put(shape))]);
         }
         let face =
             |(face, plane): (Face, Plane)| (format!("{name} {}", face.name()), WallShape::Plane(plane));

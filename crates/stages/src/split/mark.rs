@@ -9,7 +9,7 @@ use super::cutting::Cutting;
 use super::sides::Range;
 use super::walls::planes;
 use dem::setup::WallShape;
-use geom::Plane;
+use geom::{Plane, Vec3};
 use scene::input::{Input, ParticleFile, ParticleTable, read_mesh};
 use scene::keys::Wall;
 use scene::plan::most_specific;
@@ -103,7 +103,7 @@ impl Cutting<'_> {
                 .collect();
             if !near.is_empty() {
                 kept.walls.extend(wall.material.clone());
-                ["name", "plane", "box", "faces"].iter().for_each(|key| drop(table.remove(*key)));
+                ["name", "plane", "box", "faces", "place"].iter().for_each(|key| drop(table.remove(*key)));
                 table.insert("planes".to_owned(), Value::Array(near));
                 walls.push(table);
                 continue;
@@ -143,10 +143,12 @@ impl Cutting<'_> {
 
     /// A wall that has an end and whose file can be read now.
     pub fn bounded(&self, wall: &Wall) -> Option<Bounded> {
+        let place = wall.placement();
+        let put = |at: &Vec3| place.map_or(*at, |place| place.point(at));
         if let Some(file) = &wall.mesh {
             let path = self.scene.folder.join(file);
             let mesh = read_mesh(&path, wall.length_factor()).ok()?;
-            let range = self.of_points(mesh.vertices.iter().map(|v| (*v, 0.0)));
+            let range = self.of_points(mesh.vertices.iter().map(|v| (put(v), 0.0)));
             let hash = stream::sha256(&stream::whole::file(&path).ok()?);
             return Some(Bounded { range, hash, materials: Vec::new() });
         }
@@ -157,14 +159,15 @@ impl Cutting<'_> {
                 WallShape::Plane(_) => return None,
             };
             let hash = stream::sha256(text.as_bytes());
-            return Some(Bounded { range: self.of_points(points.into_iter()), hash, materials: Vec::new() });
+            let range = self.of_points(points.iter().map(|(centre, radius)| (put(centre), *radius)));
+            return Some(Bounded { range, hash, materials: Vec::new() });
         }
         let path = self.scene.folder.join(wall.source.as_ref()?);
         match Input::open_file(&path).ok()? {
             Input::Walls(mut walls) => {
                 walls.scale(wall.length_factor());
                 Some(Bounded {
-                    range: self.of_points(walls.spheres.iter().map(|s| (s.centre, s.radius))),
+                    range: self.of_points(walls.spheres.iter().map(|s| (put(&s.centre), s.radius))),
                     hash: walls.hash.clone(),
                     materials: walls.materials.iter().map(|m| m.name.clone()).collect(),
                 })

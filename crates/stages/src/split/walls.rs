@@ -61,7 +61,8 @@ impl Cutting<'_> {
 
 /// The unbounded planes of a wall; a text that is not a plane is refused by the stage that uses it.
 pub fn planes(wall: &Wall) -> Vec<Plane> {
-    let plane = wall.plane.as_ref().and_then(|text| text.parse().ok());
+    let put = |plane: Plane| wall.placement().map_or(plane, |place| place.plane(&plane));
+    let plane = wall.plane.as_ref().and_then(|text| text.parse().ok()).map(put);
     let mut sides = wall.sides();
     // The mark of a plant does not depend on the order of faces.
     sides.sort_by_key(|(face, _)| *face as usize);

@@ -154,6 +154,7 @@ material = "steel"
 mesh = "tetra.ply"
 scale = 0.5
 material = "steel"
+place = [{ rotate = { about = [0, 0, 1], through = [0.1, 0, 0], angle = "20 deg" }, translate = [0, 0, 0.001] }, { translate = [0, 0, 0.001] }]
 [[wall]]
 source = "walls.mcap"
 units = "m"

@@ -1,0 +1,109 @@
+//! Where a wall is put: `place`.
+
+use super::unit;
+use dem::setup::WallShape;
+use geom::mesh::TriMesh;
+use geom::{Plane, Vec3};
+use nalgebra::{Unit, UnitQuaternion};
+use serde::Deserialize;
+
+/// A step on the way of a wall from where it is drawn to where it is: a turn, then a shift.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// Turn about an axis.
+    pub rotate: Option<Turned>,
+    /// Shift [m].
+    #[serde(default, deserialize_with = "unit::metres")]
+    pub translate: Option<[f64; 3]>,
+}
+
+/// A turn about an axis.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Turned {
+    /// Direction of the axis, right-handed.
+    #[serde(deserialize_with = "unit::plain")]
+    pub about: [f64; 3],
+    /// A point of the axis [m]; absent: the origin.
+    #[serde(default, deserialize_with = "unit::metres")]
+    pub through: [f64; 3],
+    /// Angle [rad].
+    #[serde(deserialize_with = "unit::radians")]
+    pub angle: f64,
+}
+
+/// All steps of a wall, one after the other: x ↦ R x + s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    turn: UnitQuaternion<f64>,
+    shift: Vec3,
+}
+
+impl Placement {
+    /// Of steps; `None` where there is none.
+    pub fn of(steps: &[Place]) -> Option<Placement> {
+        let still = Placement { turn: UnitQuaternion::identity(), shift: Vec3::zeros() };
+        let then = |all: Placement, step: &Place| {
+            let (turn, mut shift) = step.rotate.as_ref().map_or((still.turn, Vec3::zeros()), |r| {
+                let turn =
+                    UnitQuaternion::from_axis_angle(&Unit::new_normalize(Vec3::from(r.about)), r.angle);
+                let through = Vec3::from(r.through);
+                (turn, through - turn * through)
+            });
+            shift += Vec3::from(step.translate.unwrap_or_default());
+            Placement { turn: turn * all.turn, shift: turn * all.shift + shift }
+        };
+        (!steps.is_empty()).then(|| steps.iter().fold(still, then))
+    }
+
+    /// Where a point is.
+    pub fn point(&self, at: &Vec3) -> Vec3 {
+        self.turn * at + self.shift
+    }
+
+    /// How a direction or a velocity is turned.
+    pub fn vector(&self, along: &Vec3) -> Vec3 {
+        self.turn * along
+    }
+
+    /// A plane.
+    pub fn plane(&self, plane: &Plane) -> Plane {
+        Plane { point: self.point(&plane.point), normal: self.vector(&plane.normal) }
+    }
+
+    /// A surface.
+    pub fn shape(&self, shape: WallShape) -> WallShape {
+        match shape {
+            WallShape::Plane(plane) => WallShape::Plane(self.plane(&plane)),
+            WallShape::Mesh(TriMesh { vertices, faces }) => {
+                WallShape::Mesh(TriMesh { vertices: vertices.iter().map(|v| self.point(v)).collect(), faces })
+            }
+            WallShape::Spheres(spheres) => WallShape::Spheres(
+                spheres.iter().map(|(centre, radius)| (self.point(centre), *radius)).collect(),
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn steps_act_one_after_the_other() {
+        let turn = |angle: f64| Turned { about: [0.0, 0.0, 2.0], through: [1.0, 0.0, 0.0], angle };
+        let steps = [
+            Place { rotate: Some(turn(FRAC_PI_2)), translate: Some([0.0, 0.0, 3.0]) },
+            Place { rotate: None, translate: Some([1.0, 0.0, 0.0]) },
+        ];
+        let place = Placement::of(&steps).expect("steps");
+        assert!((place.point(&Vec3::new(2.0, 0.0, 0.0)) - Vec3::new(2.0, 1.0, 3.0)).norm() < 1e-15);
+        assert!((place.vector(&Vec3::x()) - Vec3::y()).norm() < 1e-15);
+        assert_eq!(Placement::of(&[]), None);
+        let still = [Place { rotate: Some(turn(0.0)), translate: Some([0.0; 3]) }];
+        let at = Vec3::new(0.1, 0.7, -0.3);
+        assert_eq!(Placement::of(&still).expect("a step").point(&at), at);
+    }
+}
