@@ -2,6 +2,7 @@
 
 mod cover;
 pub mod crop;
+mod crop_neighbours;
 pub mod crop_rows;
 mod darts;
 pub mod density;
@@ -9,6 +10,7 @@ mod enclosed;
 mod examined;
 mod few;
 pub mod fill;
+pub mod filter;
 pub mod findable;
 pub mod formats;
 pub mod grazing;
@@ -23,6 +25,7 @@ pub mod outer;
 pub mod outliers;
 mod patch;
 pub mod pivot;
+pub mod places;
 pub mod points;
 mod raster;
 pub mod regions;

@@ -8,6 +8,7 @@ use cli::Report;
 use cloud::crop::CropError;
 use cloud::crop::Rules;
 use cloud::crop_rows;
+use cloud::filter::Filter;
 use cloud::ground::Ground;
 use cloud::outliers::Outliers;
 use cloud::scatter::Scattered;
@@ -51,8 +52,14 @@ struct Args {
     #[arg(long, value_name = "M", value_parser = not_negative)]
     tolerance: Option<f64>,
     /// Only check for parts beyond the outer shape: write one CSV line for each part to stdout, and no cloud
-    #[arg(long, conflicts_with_all = ["output", "ascii", "outliers", "grazing", "seen_from", "ground", "scattered", "largest", "restore", "mark"])]
+    #[arg(long, conflicts_with_all = ["output", "ascii", "distinct", "outliers", "grazing", "seen_from", "ground", "scattered", "largest", "restore", "mark"])]
     check: bool,
+    /// Keep the points whose properties fulfil a condition, such as 'classification != 7 && intensity > 20' (==, !=, <, <=, >, >=, &&, ||, !, brackets; x, y, z and every property; other names in single quotes)
+    #[arg(long = "where", value_name = "EXPR")]
+    condition: Option<Filter>,
+    /// Keep points more than M [m] apart, the first ones in the file; with 0, one of the points that lie in one place
+    #[arg(long, value_name = "M", value_parser = not_negative)]
+    distinct: Option<f64>,
     /// Remove points whose mean distance to K neighbours is more than SIGMA deviations above the mean
     #[arg(long, value_name = "K,SIGMA")]
     outliers: Option<Outliers>,
@@ -132,6 +139,8 @@ fn rules(args: &Args) -> anyhow::Result<Rules> {
     let mut rules = Rules {
         keep: args.keep.clone(),
         remove: args.remove.clone(),
+        condition: args.condition.clone(),
+        distinct: args.distinct,
         outliers: args.outliers,
         grazing: args.grazing,
         seen_from: args.seen_from.clone(),
