@@ -25,6 +25,7 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
     Examples:\n\
     \x20 cloud-crop scan.ply --remove halfspace:0,0,-0.1,0,0,-1 -o cropped.ply\n\
     \x20 cloud-crop scan.ply --outliers 12,3 --largest 0.03 | cloud-fill -o filled.ply\n\
+    \x20 cloud-crop scan.ply cropped.ply --where 'scan == 0 || z > 0.1' -o both.ply\n\
     \x20 cloud-crop scan.ply --grazing 75 --seen-from 0,0,1.8 --ground 3,0.05 --mark -o marked.ply\n\
     \x20 cloud-crop scan.ply --outer box:-1,-1,-1,1,1,1 --check";
 
@@ -34,6 +35,9 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
 struct Args {
     #[command(flatten)]
     input: cli::Input,
+    /// Further clouds in the same coordinate system; the property `scan` then says which cloud a point is of
+    #[arg(value_name = "CLOUD")]
+    further: Vec<cli::Source>,
     #[command(flatten)]
     output: cli::CloudOutput,
     /// Keep the points inside SHAPE (repeat: inside any of the shapes)
@@ -93,6 +97,9 @@ fn main() -> ExitCode {
 fn crop(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
     let rules = rules(&args)?;
+    if !args.further.is_empty() {
+        return cropped(&args, &rules, &merged(&args)?);
+    }
     let opened = Opened::new(args.input.open()?).with_context(|| args.input.name())?;
     let opened = match opened {
         Opened::Blocks(blocks) if !args.check && args.is_plain() && crop_rows::can(&blocks, &rules) => {
@@ -101,14 +108,27 @@ fn crop(args: Args) -> anyhow::Result<Report> {
         other => other,
     };
     let cloud = args.input.go_on(opened)?;
-    let (kept, counts) = match cloud::crop(&cloud, &rules) {
+    cropped(&args, &rules, &cloud)
+}
+
+/// All clouds as one.
+fn merged(args: &Args) -> anyhow::Result<cloud::Cloud> {
+    cli::Source::one_stdin(std::iter::once(&args.input.cloud).chain(&args.further))?;
+    let further = args.further.iter().map(|cloud| cli::Input { cloud: cloud.clone(), ..args.input.clone() });
+    let inputs = std::iter::once(args.input.clone()).chain(further);
+    let clouds = inputs.map(|input| input.read_cloud()).collect::<anyhow::Result<Vec<_>>>()?;
+    cloud::merge(clouds).context("cannot merge the clouds")
+}
+
+fn cropped(args: &Args, rules: &Rules, cloud: &cloud::Cloud) -> anyhow::Result<Report> {
+    let (kept, counts) = match cloud::crop(cloud, rules) {
         Err(e @ (CropError::NoViewpoint | CropError::NothingToRestore | CropError::NothingToMark)) => {
             return Err(cli::usage(format!("{}: {e}", args.input.name())));
         }
         done => done.with_context(|| args.input.name())?,
     };
-    words::warn(&counts, &rules);
-    let report = words::report(&counts, &rules, kept.points.len());
+    words::warn(&counts, rules);
+    let report = words::report(&counts, rules, kept.points.len());
     if args.check {
         return words::checked(&counts, report);
     }

@@ -82,3 +82,22 @@ fn points_are_chosen_by_their_properties() {
         assert!(done.status.code() == Some(code) && told.contains(part), "{told}");
     }
 }
+
+#[test]
+fn several_clouds_become_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (first, second) = (file("a.csv", "x,y,z,tone\n0,0,0,2\n1,0,0,7\n"), file("b.xyz", "5 0 0\n"));
+    let both = cloud::from_bytes(crop(&[&first, &second, &first]).stdout).unwrap();
+    assert_eq!(both.points.len(), 5);
+    assert_eq!(both.attributes.get("scan").unwrap().to_f64(), [0.0, 0.0, 1.0, 2.0, 2.0]);
+    let some =
+        cloud::from_bytes(crop(&[&first, &second, "--where", "scan == 1 || tone == 7"]).stdout).unwrap();
+    assert_eq!(some.points.iter().map(|p| p.x).collect::<Vec<_>>(), [1.0, 5.0]);
+    let twice = crop(&["-", &first, "-"]);
+    assert_eq!(twice.status.code(), Some(2), "{twice:?}");
+}

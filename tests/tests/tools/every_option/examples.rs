@@ -17,6 +17,7 @@ pub const EXAMPLES: &[&str] = &[
     "cloud-crop scan.xyz --scale 1 --ascii --keep box:-1,-1,-1,1,1,1 --remove sphere:0,0,0,0.02 -o a.ply --report r.json --threads 2 -q",
     "cloud-crop scan.xyz --regions regions.toml --outer box:-1,-1,-1,1,1,1 --tolerance 0.01 --output b.ply --quiet",
     "cloud-crop scan.xyz --outer box:-1,-1,-1,1,1,1 --check",
+    "cloud-crop scan.xyz flat.xyz --distinct 0 -o both.ply",
     "cloud-crop scan.xyz --units m --where 'z < 1' --distinct 0.001 --outliers 12,3 --largest 0.03 -o c.ply",
     "cloud-crop scan.xyz --scale 1 --outliers 12,3 --grazing 75 --seen-from 0,0,2 --ground 0.5,0.01 --scattered 0.05,0.2 --restore box:0,0,-1,1,1,1 --mark -o marked.ply",
     "cloud-fill scan.xyz --scale 1 --ascii --spacing 0.008 --for-spacing 0.02 --below 5000 --region box:-1,-1,-1,1,1,1 --max-hole 0.1 --fill blue-noise --method ball-pivoting --ball 0.01,0.02 --mesh hole.ply --seed 3 -o filled.ply --report r.json --threads 2 -q",
