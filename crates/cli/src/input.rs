@@ -202,6 +202,19 @@ impl Input {
         Ok(self.in_metres(cloud))
     }
 
+    /// Reads the cloud, with one point of each place if many lie in one: what compares each point with those around it would take time to the square.
+    ///
+    /// # Errors
+    /// As [`Input::read_cloud`].
+    pub fn read_places(&self) -> anyhow::Result<cloud::Cloud> {
+        let (cloud, left_out) = cloud::places::without_crowds(self.read_cloud()?);
+        if left_out > 0 {
+            let repeated = geom::counted_as(left_out, "point", ["is", "are"]);
+            crate::warn(&format!("{}: {repeated} left out that lie where another one lies", self.name()));
+        }
+        Ok(cloud)
+    }
+
     /// Warns of points that `cloud-crop --mark` would have removed.
     fn warn_of_marks(&self, cloud: &cloud::Cloud) {
         let marks = cloud::crop::marks(cloud).unwrap_or_default().iter().filter(|m| **m != 0).count();

@@ -3,7 +3,8 @@
 //! Rules that compare a point with its neighbours judge each place once, whatever lies in it: a thousand points at the origin are one place, far from the scan, and not the
 //! densest part of it. They take time n log n then, too.
 
-use crate::units::MANY;
+use crate::Cloud;
+use crate::units::{self, MANY, UnitWarning};
 use geom::Vec3;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -121,6 +122,21 @@ pub fn distinct(points: &[Vec3], apart: f64) -> Vec<u32> {
     rows
 }
 
+/// The cloud with one point of each place, if many of its points lie in one place, and how many points that leaves out. Points without finite coordinates stay.
+pub fn without_crowds(cloud: Cloud) -> (Cloud, usize) {
+    // Looks at some points only: most clouds have no such place, and cost no more.
+    if !units::warnings(&cloud).iter().any(|warning| matches!(warning, UnitWarning::Crowd { .. })) {
+        return (cloud, 0);
+    }
+    let is_finite = |row: &u32| cloud.points[*row as usize].iter().all(|c| c.is_finite());
+    let (finite, mut rows): (Vec<u32>, Vec<u32>) = (0..cloud.points.len() as u32).partition(is_finite);
+    let points: Vec<Vec3> = finite.iter().map(|&row| cloud.points[row as usize]).collect();
+    rows.extend(distinct(&points, 0.0).into_iter().map(|at| finite[at as usize]));
+    rows.sort_unstable();
+    let left_out = cloud.points.len() - rows.len();
+    (if left_out > 0 { cloud.select(&rows) } else { cloud }, left_out)
+}
+
 /// Of the bits of a place; 0 and −0 are the same.
 fn hash(p: &Vec3) -> u64 {
     let mut mixed = 0u64;
@@ -151,6 +167,11 @@ mod tests {
         });
         assert_eq!(kept, Ok([0].into_iter().chain(100..160).collect()));
         assert_eq!(distinct(&points, 0.0).len(), 500);
+        points.push(Vec3::repeat(f64::NAN));
+        let attributes = stream::Table::with_rows(points.len());
+        let (thinned, left_out) = without_crowds(Cloud { points, attributes, ..Cloud::default() });
+        assert_eq!((thinned.points.len(), left_out), (501, 60));
+        assert_eq!(without_crowds(thinned).1, 0);
     }
 
     #[test]
