@@ -2,6 +2,7 @@
 
 use crate::exit::usage;
 use anyhow::Context;
+use cloud::points::ReadWarning;
 use geom::number::NumberError;
 use std::{
     convert::Infallible,
@@ -140,7 +141,7 @@ impl Source {
 /// The cloud that a tool reads: flatten it into the tool's arguments.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Input {
-    /// Point cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS; STL and OBJ: their corners; detected by content), - for stdin
+    /// Point cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS, PTX; STL and OBJ: their corners; detected by content), - for stdin
     #[arg(value_name = "CLOUD", default_value = "-", hide_default_value = true)]
     pub cloud: Source,
     /// What a length in it is.
@@ -201,6 +202,19 @@ impl Input {
         Ok(self.in_metres(cloud))
     }
 
+    /// Reads the cloud, with one point of each place if many lie in one: what compares each point with those around it would take time to the square.
+    ///
+    /// # Errors
+    /// As [`Input::read_cloud`].
+    pub fn read_places(&self) -> anyhow::Result<cloud::Cloud> {
+        let (cloud, left_out) = cloud::places::without_crowds(self.read_cloud()?);
+        if left_out > 0 {
+            let repeated = geom::counted_as(left_out, "point", ["is", "are"]);
+            crate::warn(&format!("{}: {repeated} left out that lie where another one lies", self.name()));
+        }
+        Ok(cloud)
+    }
+
     /// Warns of points that `cloud-crop --mark` would have removed.
     fn warn_of_marks(&self, cloud: &cloud::Cloud) {
         let marks = cloud::crop::marks(cloud).unwrap_or_default().iter().filter(|m| **m != 0).count();
@@ -233,21 +247,27 @@ impl Input {
         Ok((self.in_metres(cloud), ("cloud".to_owned(), from.sha256())))
     }
 
-    /// Scales the cloud, or warns of implausible numbers. In a pipe only the first tool warns.
+    /// Says what the reader noticed, and scales the cloud or warns of implausible numbers. In a pipe only the first tool warns.
     fn in_metres(&self, mut cloud: cloud::Cloud) -> cloud::Cloud {
-        match self.lengths.factor() {
-            Some(1.0) => {}
-            Some(factor) => cloud.scale(factor),
-            None if self.cloud == Source::Stdin => {}
-            None => self.warn_about(&cloud::units::warnings(&cloud)),
+        let is_answered = |w: &ReadWarning| self.lengths.factor().is_some() && w.is_answered_by_scale();
+        for warning in std::mem::take(&mut cloud.warnings).iter().filter(|w| !is_answered(w)) {
+            crate::warn(&format!("{}: {warning}", self.name()));
+        }
+        if let Some(factor) = self.lengths.factor().filter(|factor| *factor != 1.0) {
+            cloud.scale(factor);
+        }
+        if self.cloud != Source::Stdin {
+            self.warn_about(&cloud::units::warnings(&cloud));
         }
         cloud
     }
 
     /// Warns of implausible numbers of a cloud, unless the scale is given or another tool has warned.
     pub fn warn_about(&self, warnings: &[cloud::units::UnitWarning]) {
-        if self.lengths.factor().is_none() && self.cloud != Source::Stdin {
-            warnings.iter().for_each(|warning| crate::warn(&format!("{}: {warning}", self.name())));
+        let is_scaled = self.lengths.factor().is_some();
+        if self.cloud != Source::Stdin {
+            let open = warnings.iter().filter(|w| !(is_scaled && w.is_answered_by_scale()));
+            open.for_each(|warning| crate::warn(&format!("{}: {warning}", self.name())));
         }
     }
 }

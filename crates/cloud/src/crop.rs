@@ -1,19 +1,21 @@
 //! Crop: which points stay.
 //!
-//! A point stays if it is in at least one `keep` (or none is given) and in no `remove`. Of the rest, points beyond the outer shape, isolated
+//! A point stays if it is in at least one `keep` (or none is given) and in no `remove`. Of the rest, points whose properties do not fulfil a condition, points beyond the outer shape, repeated ones, isolated
 //! points, grazing ones, ground, scattered ones and small parts are removed on request, in this order. What a rule, or an earlier crop that only
 //! marked points, removes inside a `restore` stays all the same.
 
-use crate::grazing;
-use crate::ground::{self, Ground, GroundError, Raster};
+use crate::crop_neighbours::measure;
+use crate::filter::{Filter, FilterError};
+use crate::ground::{Ground, GroundError, Raster};
 use crate::outer::{self, Outer, Outside};
+use crate::places::Crowd;
 use crate::points::{TooFar, check_reach};
 use crate::regions::{Action, Region};
-use crate::scatter::{self, Scattered, TooWide};
+use crate::scatter::{Scattered, TooWide};
 use crate::sieve::{BEFORE, NOT_FINITE, Sieve};
 pub use crate::sieve::{MARK, Reason, marks};
-use crate::{Cloud, largest, outliers};
-use geom::{Shape, Shown, Vec3};
+use crate::{Cloud, outliers};
+use geom::{Shape, Vec3};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -30,6 +32,10 @@ pub struct Rules {
     pub regions: Vec<Region>,
     /// Remove what lies beyond the outer shape, when one is described.
     pub outer: Outer,
+    /// Keep points whose properties fulfil this condition.
+    pub condition: Option<Filter>,
+    /// Keep points farther apart than this [m]; with 0, one of each place.
+    pub distinct: Option<f64>,
     /// Remove points far from their neighbours.
     pub outliers: Option<outliers::Outliers>,
     /// Remove points whose surface every viewpoint sees at more than this angle to its normal [°].
@@ -52,12 +58,13 @@ impl Rules {
     /// Whether no point can go.
     pub fn removes_nothing(&self) -> bool {
         let shapes = self.keep.len() + self.remove.len() + self.regions.len() + self.outer.shapes.len();
-        shapes == 0 && !self.measure()
+        shapes == 0 && self.condition.is_none() && !self.measure()
     }
 
     /// Whether a rule looks at points together.
     pub(crate) fn measure(&self) -> bool {
-        self.outliers.is_some()
+        self.distinct.is_some()
+            || self.outliers.is_some()
             || self.grazing.is_some()
             || self.ground.is_some()
             || self.scattered.is_some()
@@ -69,6 +76,8 @@ impl Rules {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[allow(missing_docs)]
 pub enum CropError {
+    #[error("--where: {0}")]
+    Condition(#[from] FilterError),
     #[error(transparent)]
     TooFar(#[from] TooFar),
     #[error(transparent)]
@@ -106,6 +115,12 @@ pub struct Cropped {
     pub beyond: Option<Outside>,
     /// Points that were marked before.
     pub marked_before: usize,
+    /// Points that do not fulfil the condition.
+    pub unfulfilled: usize,
+    /// Points as near to another one as the rule for distinct points says.
+    pub repeated: usize,
+    /// Where many points lie in one place, when a rule looked at points together.
+    pub crowd: Option<Crowd>,
     /// Points far from their neighbours.
     pub outliers: usize,
     /// Points whose surface lies along the line of sight.
@@ -230,6 +245,12 @@ pub fn crop(cloud: &Cloud, rules: &Rules) -> Result<(Cloud, Cropped), CropError>
     report.outside_shapes = sieve.count(|r| r == Reason::Shape as u8);
     report.marked_before = sieve.count(|r| r & BEFORE != 0);
     refuse(cloud, rules, report.marked_before)?;
+    if let Some(condition) = &rules.condition {
+        let fulfilled = condition.fulfilled(cloud)?;
+        let staying = (0u32..).zip(sieve.staying());
+        let rows: Vec<u32> = staying.filter(|(_, (row, _))| fulfilled[*row]).map(|(at, _)| at).collect();
+        report.unfulfilled = sieve.keep(Reason::Condition, &rows);
+    }
     if !rules.outer.shapes.is_empty() {
         let beyond = outer::beyond(&sieve.points(), &rules.outer);
         report.beyond_outer = beyond.rows.len();
@@ -251,48 +272,10 @@ fn refuse(cloud: &Cloud, rules: &Rules, marked: usize) -> Result<(), CropError> 
     let foreign = marks(cloud).is_none() && cloud.attributes.get(MARK).is_some();
     given(rules.mark && foreign, CropError::OtherMarks)?;
     given(rules.mark && rules.removes_nothing() && marked == 0, CropError::NothingToMark)?;
-    let none = !rules.measure() && marked == 0;
+    let none = !rules.measure() && rules.condition.is_none() && marked == 0;
     given(!rules.restore.is_empty() && none, CropError::NothingToRestore)?;
     let blind = rules.seen_from.is_empty() && cloud.viewpoints().next().is_none();
     given(rules.grazing.is_some() && blind, CropError::NoViewpoint)
-}
-
-/// The rules that look at points together, in their order.
-fn measure(cloud: &Cloud, rules: &Rules, sieve: &mut Sieve, report: &mut Cropped) -> Result<(), CropError> {
-    if let Some(rule) = &rules.outliers {
-        report.outliers = sieve.keep(Reason::Outlier, &outliers::inliers(&sieve.points(), rule));
-    }
-    if let Some(degrees) = rules.grazing {
-        let eyes: Vec<Vec3> = rules.seen_from.iter().copied().chain(cloud.viewpoints()).collect();
-        let some = sieve.points();
-        if some.len() < grazing::FEWEST {
-            report.idle.push(format!("--grazing needs {} points, and has {}", grazing::FEWEST, some.len()));
-        }
-        report.grazing = sieve.keep(Reason::Grazing, &grazing::faced(&some, &eyes, degrees));
-        report.viewpoints = eyes.into_iter().map(Into::into).collect();
-    }
-    if let Some(rule) = &rules.ground {
-        let above = ground::above(&sieve.points(), rule)?;
-        if above.raster.is_none() {
-            report.idle.push("--ground needs more points, not all at one place".to_owned());
-        }
-        report.ground = sieve.keep(Reason::Ground, &above.rows);
-        report.ground_raster = above.raster;
-    }
-    if let Some(rule) = &rules.scattered {
-        let compact = scatter::compact(&sieve.points(), rule)?;
-        if compact.sparse {
-            let radius = Shown(rule.radius);
-            report.idle.push(format!(
-                "--scattered: most points have hardly another within {radius} m: give a RADIUS of several spacings of the scan"
-            ));
-        }
-        report.scattered = sieve.keep(Reason::Scattered, &compact.rows);
-    }
-    if let Some(radius) = rules.largest {
-        report.smaller_parts = sieve.keep(Reason::SmallerPart, &largest::largest(&sieve.points(), radius));
-    }
-    Ok(())
 }
 
 fn count(points: &[Vec3], region: &Region) -> RegionCount {

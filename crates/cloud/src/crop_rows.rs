@@ -34,8 +34,11 @@ fn positions<R>(blocks: &Blocks<R>) -> Option<(NumberType, usize)> {
 
 /// Whether [`crop_rows`] can do what the rules ask for.
 pub fn can<R>(blocks: &Blocks<R>, rules: &Rules) -> bool {
-    let shapes_alone =
-        rules.outer.shapes.is_empty() && !rules.measure() && rules.restore.is_empty() && !rules.mark;
+    let shapes_alone = rules.outer.shapes.is_empty()
+        && rules.condition.is_none()
+        && !rules.measure()
+        && rules.restore.is_empty()
+        && !rules.mark;
     let marked = blocks.properties.iter().any(|p| p.name == MARK);
     shapes_alone && !marked && positions(blocks).is_some()
 }
@@ -130,7 +133,7 @@ mod tests {
             attributes.push("id", Values::I32((0..60_000).collect())).unwrap();
             attributes.push("tone", Values::U8((0..60_000).map(|i| i as u8).collect())).unwrap();
             let comments = vec!["a scan".to_owned()];
-            let cloud = Cloud { points, attributes, double, position_column, comments };
+            let cloud = Cloud { points, attributes, double, position_column, comments, ..Cloud::default() };
             let rules = Rules {
                 remove: vec!["sphere:6,30,0,5".parse().unwrap()],
                 keep: vec!["box:0,0,0,11,60,0.5".parse().unwrap()],

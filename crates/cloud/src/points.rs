@@ -17,6 +17,43 @@ pub struct Cloud {
     pub position_column: usize,
     /// Comment lines of the header.
     pub comments: Vec<String>,
+    /// What a user should know of the file; not written.
+    pub warnings: Vec<ReadWarning>,
+}
+
+/// A unit of length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LengthUnit {
+    /// As the file names it.
+    pub name: String,
+    /// Its length [m].
+    pub metres: f64,
+}
+
+/// What a reader noticed.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[allow(missing_docs)]
+pub enum ReadWarning {
+    #[error("{0}")]
+    LeftOut(String),
+    #[error(
+        "the coordinate reference system counts in '{}' of {} m, and everything here is in metres: read it with --scale {}, or with \
+         --scale 1 if it is in metres all the same", .0.name, .0.metres, .0.metres
+    )]
+    Unit(LengthUnit),
+    #[error(
+        "the coordinate reference system has x and y in '{}' of {} m and heights in '{}' of {} m: project them again, with metres for all, \
+         e.g. pdal translate IN.las OUT.las reprojection --filters.reprojection.out_srs=EPSG:25832 with the code of the place",
+        horizontal.name, horizontal.metres, vertical.name, vertical.metres
+    )]
+    TwoUnits { horizontal: LengthUnit, vertical: LengthUnit },
+}
+
+impl ReadWarning {
+    /// Whether a scale that is given answers it.
+    pub fn is_answered_by_scale(&self) -> bool {
+        matches!(self, ReadWarning::Unit(_))
+    }
 }
 
 /// Farther from the origin than any plant is [m]; a scanner's mark for "no echo", such as 3.4e38, is beyond it.
@@ -84,6 +121,12 @@ impl Cloud {
         self.comments.push(format!("{SCALED} {factor}"));
     }
 
+    /// Says in the comments and to the user what of the file is not in the cloud.
+    pub(crate) fn leave_out(&mut self, what: String) {
+        self.comments.push(what.clone());
+        self.warnings.push(ReadWarning::LeftOut(what));
+    }
+
     /// Where the scanners stood [m], as comments say that tools pass on.
     pub fn viewpoints(&self) -> impl Iterator<Item = Vec3> + '_ {
         self.comments.iter().filter_map(|line| viewpoint(line))
@@ -100,6 +143,7 @@ impl Cloud {
             points: rows.iter().map(|&r| self.points[r as usize]).collect(),
             attributes: self.attributes.select(rows),
             comments: self.comments.clone(),
+            warnings: self.warnings.clone(),
             ..*self
         }
     }

@@ -27,12 +27,19 @@ pub enum Reason {
     Scattered,
     /// It belongs to a smaller part.
     SmallerPart,
+    /// Another point is as near as `--distinct` says.
+    Repeated,
+    /// It does not fulfil the condition on its properties.
+    Condition,
 }
+
+/// The last of them.
+const LAST: Reason = Reason::Condition;
 
 /// The marks of a cloud: of a property [`MARK`] of which every value is 0 or the number of a [`Reason`].
 pub fn marks(cloud: &Cloud) -> Option<Vec<u8>> {
     let values = cloud.attributes.get(MARK)?.to_f64();
-    let reasons = 0..=Reason::SmallerPart as u8;
+    let reasons = 0..=LAST as u8;
     values.iter().map(|v| reasons.clone().find(|r| f64::from(*r) == *v)).collect()
 }
 
@@ -102,7 +109,7 @@ impl<'a> Sieve<'a> {
 
     /// Points in the shapes come back if a rule or a mark has removed them; how many.
     pub fn restore(&mut self, shapes: &[Shape]) -> usize {
-        let by_rule = Reason::Outlier as u8..=Reason::SmallerPart as u8;
+        let by_rule = Reason::Outlier as u8..=LAST as u8;
         let mut count = 0;
         for (reason, p) in self.reasons.iter_mut().zip(self.points) {
             let can = *reason & BEFORE != 0 || by_rule.contains(reason);

@@ -1,6 +1,7 @@
 //! Units of a scan: warns of coordinates that look like millimetres, and of coordinates with too few digits.
 
 use crate::Cloud;
+use crate::places::Places;
 use crate::points::unit_is_known;
 use geom::Vec3;
 use std::fmt;
@@ -15,6 +16,9 @@ const WIDE: f64 = 50.0;
 const SPARSE: f64 = 0.1;
 /// Share of the spacing that a coordinate may be off.
 const EXACT: f64 = 0.01;
+
+/// Points in one place that are no chance: so many, and such a share of all.
+pub(crate) const MANY: (usize, f64) = (20, 0.01);
 
 /// What looks wrong about the numbers of a cloud.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,6 +39,20 @@ pub enum UnitWarning {
         /// Mean distance of points [m].
         spacing: f64,
     },
+    /// Many points lie in one place.
+    Crowd {
+        /// Share of all [–].
+        share: f64,
+        /// Where [m].
+        place: [f64; 3],
+    },
+}
+
+impl UnitWarning {
+    /// Whether a scale that is given answers it.
+    pub fn is_answered_by_scale(&self) -> bool {
+        !matches!(self, UnitWarning::Crowd { .. })
+    }
 }
 
 impl fmt::Display for UnitWarning {
@@ -56,6 +74,12 @@ impl fmt::Display for UnitWarning {
                 rough(*largest),
                 rough(*step),
                 rough(*spacing)
+            ),
+            UnitWarning::Crowd { share, place: [x, y, z] } => write!(
+                f,
+                "about {} % of the points lie in one place, ({x}, {y}, {z}) m: if a scanner writes that where it had no echo, remove them \
+                 with cloud-crop --remove sphere:{x},{y},{z},0.001, or leave one of each place with cloud-crop --distinct 0",
+                (100.0 * share).round()
             ),
         }
     }
@@ -92,6 +116,7 @@ impl Survey {
     /// What looks wrong, if anything; `double` coordinates have 8 bytes. Comments of the cloud may say that its unit is known.
     pub fn warnings(&self, double: bool, comments: &[String]) -> Vec<UnitWarning> {
         let mut found = look(&self.some, self.count as f64, double);
+        found.extend(crowd(&self.some));
         if unit_is_known(comments) {
             found.retain(|warning| !matches!(warning, UnitWarning::Millimetres { .. }));
         }
@@ -111,6 +136,12 @@ fn look(some: &[Vec3], count: f64, double: bool) -> Vec<UnitWarning> {
         found.push(UnitWarning::Short { largest, step, spacing });
     }
     found
+}
+
+/// A place that holds many of the points that stand for all.
+fn crowd(some: &[Vec3]) -> Option<UnitWarning> {
+    let found = Places::of(some)?.doubtful()?;
+    Some(UnitWarning::Crowd { share: found.points as f64 / some.len() as f64, place: found.place })
 }
 
 /// Lengths of the box around most points, ascending, and the largest coordinate among these [m].

@@ -138,35 +138,6 @@ fn e57_bytes() -> Vec<u8> {
     file.into_inner()
 }
 
-/// What is not read is named.
-#[test]
-fn e57_properties_that_are_left_out_are_named() {
-    use e57::{Record, RecordDataType, RecordName, RecordValue as Value};
-    let mut file = Cursor::new(Vec::new());
-    let mut writer = e57::E57Writer::new(&mut file, "file").unwrap();
-    writer
-        .register_extension(e57::Extension::new("nor", "http://www.libe57.org/E57_NOR_surface_normals.txt"))
-        .unwrap();
-    let normal = RecordName::Unknown { namespace: "nor".to_owned(), name: "normalX".to_owned() };
-    let prototype = vec![
-        Record::CARTESIAN_X_F64,
-        Record::CARTESIAN_Y_F64,
-        Record::CARTESIAN_Z_F64,
-        Record { name: normal, data_type: RecordDataType::F32 },
-        Record { name: RecordName::TimeStamp, data_type: RecordDataType::F64 },
-    ];
-    let mut points = writer.add_pointcloud("scan", prototype).unwrap();
-    let of = [1.0, 2.0, 3.0].map(Value::Double).into_iter();
-    points.add_point(of.chain([Value::Single(1.0), Value::Double(7.0)]).collect()).unwrap();
-    points.finalize().unwrap();
-    writer.finalize().unwrap();
-    drop(writer);
-    let cloud = read(file.into_inner());
-    assert_eq!(cloud.points, [Vec3::new(1.0, 2.0, 3.0)]);
-    assert_eq!(cloud.comments, ["properties of the scans that were left out: nor:normalX timeStamp"]);
-    assert!(read(e57_bytes()).comments.is_empty());
-}
-
 #[test]
 fn e57_with_two_scans_and_points_without_an_echo() {
     let bytes = e57_bytes();

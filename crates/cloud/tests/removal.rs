@@ -250,7 +250,7 @@ fn marks_are_applied_and_restored() {
         other
     };
     assert_eq!(crop(&with(5.0), &Rules::default()).unwrap().1.points_out, 0);
-    let other = with(8.0);
+    let other = with(20.0);
     let (kept, counts) = crop(&other, &Rules::default()).unwrap();
     assert_eq!((counts.points_out, kept.attributes.get(MARK).is_some()), (902, true));
     assert_eq!(crop(&other, &first), Err(CropError::OtherMarks));

@@ -8,6 +8,10 @@ fn read(text: &str) -> Cloud {
     from_bytes(text.as_bytes().to_vec()).unwrap_or_else(|e| panic!("{text}: {e}"))
 }
 
+fn read_bytes(bytes: &[u8]) -> Cloud {
+    from_bytes(bytes.to_vec()).unwrap()
+}
+
 fn refused(text: &str) -> String {
     from_bytes(text.as_bytes().to_vec()).expect_err(text).to_string()
 }
@@ -82,7 +86,7 @@ fn other_numbers_of_names_than_columns_are_refused() {
         ("x y z Wall ID wear\n1 2 3 4 5\n", ["6 names", "name every column"]),
         ("\nx,y,z,Wall ID\n1,2,3,4,5\n", ["line 2", "4 names"]),
         ("# x y z of the plant\n1 2 3 4\n", ["line 1", "6 names"]),
-        ("east,north,up\n1,2,3\n", ["line 1", "has x, y and z among them"]),
+        ("lon,lat,alt\n1,2,3\n", ["line 1", "has x, y and z among them"]),
     ] {
         let message = refused(text);
         assert!(parts.iter().all(|part| message.contains(part)), "{text}: {message}");
@@ -92,10 +96,38 @@ fn other_numbers_of_names_than_columns_are_refused() {
 }
 
 #[test]
-fn utf_16_and_ptx_are_named() {
-    let ptx = "20\n20\n10 20 1.5\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 1.5 1\n1 2 3 0.5\n";
-    assert!(refused(ptx).contains("line 2: a second whole number begins PTX"), "{}", refused(ptx));
-    let bytes: Vec<u8> = "\u{feff}1 2 3\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
-    let message = from_bytes(bytes).expect_err("two bytes a letter").to_string();
-    assert!(message.contains("UTF-16") && message.contains("iconv"), "{message}");
+fn utf_16_is_named_and_latin_1_is_read() {
+    let latin = read_bytes(b"# Gr\xf6\xdfe\n1 2 3\n");
+    assert_eq!(latin.comments, ["Gr\u{f6}\u{df}e"]);
+    assert!(refused("1 2 3\n4 5 \u{b5}\n").contains("line 2"));
+    // As many bytes as a binary STL of its count would have, big-endian.
+    let lines: String = (0..9).map(|k| format!("{k} 2 3\n")).collect();
+    for text in ["1 2 3\n".to_owned(), lines] {
+        let units = || format!("\u{feff}{text}").encode_utf16().collect::<Vec<_>>();
+        for bytes in [
+            units().into_iter().flat_map(u16::to_be_bytes).collect::<Vec<u8>>(),
+            units().into_iter().flat_map(u16::to_le_bytes).collect(),
+        ] {
+            let message = from_bytes(bytes).expect_err("two bytes a letter").to_string();
+            assert!(message.contains("UTF-16") && message.contains("iconv"), "{message}");
+        }
+    }
+}
+
+#[test]
+fn numbers_and_names_as_other_programs_write_them() {
+    let quoted = read("\"x\",\"y\",\"z\",\"wear\"\n\"1\",\"2\",\"3\",\"0.5\"\n");
+    assert_eq!(quoted.points, [Vec3::new(1.0, 2.0, 3.0)]);
+    assert_eq!(quoted.attributes.get("wear").map(|v| v.get(0)), Some(0.5));
+    assert_eq!(read("1.5D+01 -2d0 3\n").points, [Vec3::new(15.0, -2.0, 3.0)]);
+    for none in ["NULL", "NA", "N/A", "#N/A", "-", "nan(ind)", "-nan(ind)", "1.#QNAN", "nan"] {
+        let cloud = read(&format!("x,y,z,wear\n1,2,3,4\n1,2,3,{none}\n"));
+        assert!(cloud.attributes.get("wear").is_some_and(|v| v.get(1).is_nan()), "{none}");
+    }
+    for names in ["x (m),y (m),z (m),wear (mm)", "East,North,Up,wear", "Points:0,Points:1,Points:2,wear"] {
+        let cloud = read(&format!("{names}\n1,2,3,4\n"));
+        assert_eq!(cloud.points, [Vec3::new(1.0, 2.0, 3.0)], "{names}");
+        assert_eq!(cloud.attributes.columns()[0].name, "wear", "{names}");
+    }
+    assert!(refused("1,2,3\n1,2,three\n").contains("'three' (column 3) is not a number"));
 }

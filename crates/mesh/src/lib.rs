@@ -144,8 +144,9 @@ pub fn load(file: &str) -> Result<TriMesh, String> {
     })
 }
 
-/// Lines of text, lossy, with their numbers from 1; line ends may be LF, CRLF or CR.
+/// Lines of text, lossy, with their numbers from 1; line ends may be LF, CRLF or CR. A byte order mark belongs to none of them.
 fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, std::borrow::Cow<'_, str>)> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
     (1..).zip(bytes.split(move |&b| b == end)).map(|(n, line)| (n, String::from_utf8_lossy(line)))
 }

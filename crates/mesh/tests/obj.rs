@@ -52,3 +52,12 @@ fn any_encoding_continued_lines_and_indices_from_the_end() {
     let later = mesh::from_bytes(b"v 0 0 0 1 0 0\nf 1 2 3\nv 1 0 0 0.5\nv 0 1 0\n").expect("sound");
     assert_eq!((later.faces.len(), later.area()), (1, 0.5));
 }
+
+/// A mark in front of the first `v` took that vertex, and with it the number of all others.
+#[test]
+fn a_byte_order_mark_takes_no_vertex() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf -3 -2 -1\n";
+    let plain = mesh::from_bytes(text.as_bytes()).expect("sound");
+    let marked = mesh::from_bytes(format!("\u{feff}{text}").as_bytes()).expect("sound");
+    assert_eq!((plain.vertices, plain.faces), (marked.vertices, marked.faces));
+}

@@ -1,7 +1,7 @@
 //! A cloud → small squares: each point stands for the surface around it.
 //!
 //! ```text
-//! normal   least axis of the nearest neighbours; given normals are taken as they are
+//! normal   least axis of the nearest neighbours; given normals are taken as they are, unless those of neighbours look to opposite sides
 //! side     normals are passed on from neighbour to neighbour, the most parallel ones first, from the highest point, which looks up
 //! size     area of a square = π r²/k, r the distance of the k-th neighbour
 //! ```
@@ -19,16 +19,37 @@ use std::collections::BinaryHeap;
 /// Neighbours of a point.
 const NEIGHBOURS: usize = 12;
 
-/// Squares of a cloud, with their spacing [m]; `None` when it has fewer points than [`NEIGHBOURS`] and one, or all at one place.
-pub fn squares(points: &[Vec3], normals: Option<&[Vec3]>) -> Option<(TriMesh, f64)> {
+/// Share of parallel neighbours whose given normals may look to opposite sides: both faces of a thin plate do, and those of random sign are half.
+const OPPOSITE: f64 = 0.25;
+/// Normals are parallel, up to their sign, with this cosine of the angle between them.
+const PARALLEL: f64 = 0.7;
+
+/// Squares of a cloud.
+pub struct Surfels {
+    /// Two triangles for each point.
+    pub squares: TriMesh,
+    /// Distance of the points [m].
+    pub spacing: f64,
+    /// Given normals that were turned to the other side.
+    pub turned: usize,
+}
+
+/// Squares of a cloud; `None` when it has fewer points than [`NEIGHBOURS`] and one, or all at one place.
+pub fn squares(points: &[Vec3], normals: Option<&[Vec3]>) -> Option<Surfels> {
     let near = neighbours(points)?;
     let spacing = |k: usize| {
         let far = near[k].last().map_or(0.0, |n| (points[*n as usize] - points[k]).norm());
         (std::f64::consts::PI / NEIGHBOURS as f64).sqrt() * far
     };
-    let normals = match normals {
-        Some(normals) => normals.to_vec(),
-        None => found_normals(points, &near),
+    let (normals, turned) = match normals {
+        Some(given) if are_of_random_sign(given, &near) => {
+            let passed_on = with_sides(points, &near, given.to_vec());
+            let turned = given.iter().zip(&passed_on).filter(|(a, b)| a.dot(b) < 0.0).count();
+            // Which side is which is not known: the fewer were wrong.
+            (passed_on, turned.min(given.len() - turned))
+        }
+        Some(given) => (given.to_vec(), 0),
+        None => (with_sides(points, &near, found_normals(points, &near)), 0),
     };
     let mut mesh = TriMesh::default();
     let mut sizes: Vec<f64> = (0..points.len()).map(spacing).collect();
@@ -47,7 +68,7 @@ pub fn squares(points: &[Vec3], normals: Option<&[Vec3]>) -> Option<(TriMesh, f6
     }
     sizes.sort_by(f64::total_cmp);
     let middle = sizes[sizes.len() / 2];
-    (middle > 0.0).then_some((mesh, middle))
+    (middle > 0.0).then_some(Surfels { squares: mesh, spacing: middle, turned })
 }
 
 /// The nearest neighbours of each point, nearest first.
@@ -81,6 +102,19 @@ fn neighbours(points: &[Vec3]) -> Option<Vec<Vec<u32>>> {
     Some((0..points.len()).into_par_iter().map(of).collect())
 }
 
+/// Whether given normals of neighbours look to opposite sides too often to say where the inside is.
+fn are_of_random_sign(normals: &[Vec3], near: &[Vec<u32>]) -> bool {
+    let (mut parallel, mut opposite) = (0usize, 0usize);
+    for (normal, near) in normals.iter().zip(near) {
+        for other in near.iter().map(|n| &normals[*n as usize]) {
+            let cosine = normal.dot(other) / (normal.norm() * other.norm());
+            parallel += usize::from(cosine.abs() > PARALLEL);
+            opposite += usize::from(cosine < -PARALLEL);
+        }
+    }
+    opposite as f64 > OPPOSITE * parallel as f64
+}
+
 fn found_normals(points: &[Vec3], near: &[Vec<u32>]) -> Vec<Vec3> {
     let of = |k: usize| {
         let all = || near[k].iter().map(|n| points[*n as usize]).chain([points[k]]);
@@ -88,7 +122,11 @@ fn found_normals(points: &[Vec3], near: &[Vec<u32>]) -> Vec<Vec3> {
         let spread: Matrix3<f64> = all().map(|p| (p - mean) * (p - mean).transpose()).sum();
         least_axis(&spread).unwrap_or_else(Vec3::z)
     };
-    let mut normals: Vec<Vec3> = (0..points.len()).into_par_iter().map(of).collect();
+    (0..points.len()).into_par_iter().map(of).collect()
+}
+
+/// Normals with their sides, passed on from neighbour to neighbour.
+fn with_sides(points: &[Vec3], near: &[Vec<u32>], mut normals: Vec<Vec3>) -> Vec<Vec3> {
     // Neighbours both ways.
     let mut both: Vec<Vec<u32>> = near.to_vec();
     for (k, list) in near.iter().enumerate() {

@@ -3,11 +3,13 @@
 //! A mesh that is closed stays as it is, but for faces that look inwards and pieces apart. Anything else is sampled by its winding number
 //! ([`remesh::soup`]), and the surface of the samples is taken. Then faces are thinned out ([`remesh::decimate`]) with the volume as it is.
 
+mod weld;
+
 use crate::crossing;
 use crate::stone::{MOST_FACES, Stone, StoneError, around};
 use geom::mesh::{MeshError, TriMesh, closest_point};
 use geom::{Boxes, Vec3};
-use remesh::{Samples, decimate, pieces, soup, surface, surfels};
+use remesh::{Samples, Winding, decimate, pieces, soup, surface, surfels};
 use serde::Serialize;
 use std::collections::BTreeSet;
 use thiserror::Error;
@@ -20,6 +22,8 @@ const RETRIES: usize = 6;
 const NOISE: f64 = 0.05;
 /// A body of less volume than this times its area to the power of 3/2 is a sheet; a ball has 0.094, a plate of 50 : 50 : 1 has 0.007.
 const SHEET: f64 = 1e-3;
+/// A hollow of less than this share of the volume is no hollow.
+const HOLLOW: f64 = 1e-6;
 /// Finest and coarsest cells of a cloud, as cells along the longest side.
 const CELLS: [f64; 2] = [16.0, 400.0];
 
@@ -41,6 +45,16 @@ pub struct CleanSettings {
 pub struct Changes {
     /// Faces that came.
     pub faces_before: usize,
+    /// Corners that were joined because rounding had parted them, and how far apart they were at most [m].
+    pub welded: usize,
+    /// See `welded`.
+    pub welded_within: Option<f64>,
+    /// Hollows inside that are filled now, and their volume [m³].
+    pub hollows: usize,
+    /// See `hollows`.
+    pub hollow_volume: f64,
+    /// Normals of a cloud that were turned, because those of neighbours looked to opposite sides.
+    pub normals_turned: usize,
     /// Edges that did not join two faces.
     pub open_edges: usize,
     /// Faces turned to the other side.
@@ -94,7 +108,12 @@ pub fn clean_mesh(mesh: &TriMesh, settings: &CleanSettings) -> Result<(Stone, Ch
     if mesh.faces.is_empty() {
         return Err(MeshError::Empty.into());
     }
+    if let Some(welded) = weld::welded(&mesh, usual_edge(&mesh)) {
+        (changes.welded, changes.welded_within) = (welded.corners, Some(welded.within));
+        mesh = distinct(&welded.mesh);
+    }
     changes.turned = soup::orient(&mut mesh).turned;
+    mesh = without_hollows(mesh, &mut changes);
     mesh = without_noise(&mesh, &mut changes);
     changes.open_edges = mesh.open_edges();
     let reason = match Stone::new(&mesh, true) {
@@ -120,16 +139,52 @@ pub fn clean_mesh(mesh: &TriMesh, settings: &CleanSettings) -> Result<(Stone, Ch
     thinned(mesh, settings, changes)
 }
 
-/// Cells along the longest side that show the edges of a mesh.
-fn cells_of(mesh: &TriMesh) -> usize {
-    let (lo, hi) = geom::grid::bounds(&mesh.vertices);
+/// Length of the edge in the middle of all [m].
+fn usual_edge(mesh: &TriMesh) -> f64 {
     let corner = |face: &[u32; 3], k: usize| mesh.vertices[face[k % 3] as usize];
     let edges =
         mesh.faces.iter().flat_map(|face| [0, 1, 2].map(|k| (corner(face, k) - corner(face, k + 1)).norm()));
     let mut edges: Vec<f64> = edges.collect();
     edges.sort_by(f64::total_cmp);
-    let usual = edges.get(edges.len() / 2).copied().unwrap_or(0.0);
-    let wanted = CELLS_AN_EDGE * (hi - lo).max() / usual;
+    edges.get(edges.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Without closed pieces that lie inside the largest one: they are filled.
+fn without_hollows(mesh: TriMesh, changes: &mut Changes) -> TriMesh {
+    let all = pieces::pieces(&mesh);
+    let Some(outer) = all.iter().max_by(|a, b| a.volume().total_cmp(&b.volume())) else { return mesh };
+    if all.len() == 1 || outer.open_edges() > 0 {
+        return mesh;
+    }
+    let (inside, least) = (Winding::new(outer), HOLLOW * outer.volume());
+    let is_hollow = |piece: &&TriMesh| {
+        let all_inside = || piece.vertices.iter().all(|v| inside.at(v) > 0.5);
+        (least..outer.volume()).contains(&piece.volume()) && piece.open_edges() == 0 && all_inside()
+    };
+    let (hollows, others): (Vec<&TriMesh>, Vec<&TriMesh>) = all.iter().partition(is_hollow);
+    if hollows.is_empty() {
+        return mesh;
+    }
+    changes.hollows = hollows.len();
+    changes.hollow_volume = hollows.iter().map(|piece| piece.volume()).sum();
+    joined(others)
+}
+
+/// Pieces as one mesh.
+fn joined<'a>(pieces: impl IntoIterator<Item = &'a TriMesh>) -> TriMesh {
+    let mut all = TriMesh::default();
+    for piece in pieces {
+        let first = all.vertices.len() as u32;
+        all.vertices.extend(&piece.vertices);
+        all.faces.extend(piece.faces.iter().map(|f| f.map(|v| v + first)));
+    }
+    all
+}
+
+/// Cells along the longest side that show the edges of a mesh.
+fn cells_of(mesh: &TriMesh) -> usize {
+    let (lo, hi) = geom::grid::bounds(&mesh.vertices);
+    let wanted = CELLS_AN_EDGE * (hi - lo).max() / usual_edge(mesh);
     if wanted.is_finite() {
         wanted.clamp(CELLS_OF_MESH[0], CELLS_OF_MESH[1]).round() as usize
     } else {
@@ -147,15 +202,17 @@ pub fn clean_cloud(
     settings: &CleanSettings,
 ) -> Result<(Stone, Changes), CleanError> {
     let few = || CleanError::Points(points.len());
-    let (squares, spacing) =
+    let surfels =
         if points.len() < 100 { None } else { surfels::squares(points, normals) }.ok_or_else(few)?;
+    let spacing = surfels.spacing;
     let (lo, hi) = geom::grid::bounds(points);
     let cells = settings
         .cells
         .unwrap_or_else(|| ((hi - lo).max() / spacing).clamp(CELLS[0], CELLS[1]).round() as usize);
     let reason = format!("{} points came", points.len());
     let mut changes = Changes { rebuilt: Some(reason), cells: Some(cells), ..Changes::default() };
-    let mesh = rebuilt(soup::sample(&squares, cells), &mut changes)?;
+    changes.normals_turned = surfels.turned;
+    let mesh = rebuilt(soup::sample(&surfels.squares, cells), &mut changes)?;
     thinned(mesh, settings, changes)
 }
 
@@ -176,17 +233,11 @@ fn without_noise(mesh: &TriMesh, changes: &mut Changes) -> TriMesh {
     let all = pieces::pieces(mesh);
     let areas: Vec<f64> = all.iter().map(TriMesh::area).collect();
     let (total, most) = (areas.iter().sum::<f64>(), areas.iter().copied().fold(0.0, f64::max));
-    let mut kept = TriMesh::default();
-    for (piece, area) in all.iter().zip(&areas) {
-        if *area < NOISE * most {
-            changes.islands += 1;
-            changes.islands_area += area / total;
-        } else {
-            let first = kept.vertices.len() as u32;
-            kept.vertices.extend(&piece.vertices);
-            kept.faces.extend(piece.faces.iter().map(|f| f.map(|v| v + first)));
-        }
-    }
+    let (noise, large): (Vec<_>, Vec<_>) =
+        all.iter().zip(&areas).partition(|(_, area)| **area < NOISE * most);
+    changes.islands += noise.len();
+    changes.islands_area += noise.iter().map(|(_, area)| **area / total).sum::<f64>();
+    let kept = joined(large.into_iter().map(|(piece, _)| piece));
     // A soup of triangles, each a piece.
     if changes.islands_area > NOISE * all.len() as f64 || kept.area() < 0.5 * total {
         (changes.islands, changes.islands_area) = (0, 0.0);

@@ -21,7 +21,7 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     if let Some(plot) = &args.plot {
         ::plot::check_name(plot).map_err(|e| cli::usage(format!("--plot {e}")))?;
     }
-    let cloud = args.input.read_cloud()?;
+    let cloud = args.input.read_places()?;
     cloud.check_reach().with_context(|| args.input.name())?;
     let forced = args.forced(&cloud);
     let chosen = sample(&cloud.points, forced.as_deref(), &settings).with_context(|| args.input.name())?;

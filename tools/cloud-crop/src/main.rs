@@ -8,6 +8,7 @@ use cli::Report;
 use cloud::crop::CropError;
 use cloud::crop::Rules;
 use cloud::crop_rows;
+use cloud::filter::Filter;
 use cloud::ground::Ground;
 use cloud::outliers::Outliers;
 use cloud::scatter::Scattered;
@@ -24,6 +25,7 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
     Examples:\n\
     \x20 cloud-crop scan.ply --remove halfspace:0,0,-0.1,0,0,-1 -o cropped.ply\n\
     \x20 cloud-crop scan.ply --outliers 12,3 --largest 0.03 | cloud-fill -o filled.ply\n\
+    \x20 cloud-crop scan.ply cropped.ply --where 'scan == 0 || z > 0.1' -o both.ply\n\
     \x20 cloud-crop scan.ply --grazing 75 --seen-from 0,0,1.8 --ground 3,0.05 --mark -o marked.ply\n\
     \x20 cloud-crop scan.ply --outer box:-1,-1,-1,1,1,1 --check";
 
@@ -33,6 +35,9 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
 struct Args {
     #[command(flatten)]
     input: cli::Input,
+    /// Further clouds in the same coordinate system; the property `scan` then says which cloud a point is of
+    #[arg(value_name = "CLOUD")]
+    further: Vec<cli::Source>,
     #[command(flatten)]
     output: cli::CloudOutput,
     /// Keep the points inside SHAPE (repeat: inside any of the shapes)
@@ -51,8 +56,14 @@ struct Args {
     #[arg(long, value_name = "M", value_parser = not_negative)]
     tolerance: Option<f64>,
     /// Only check for parts beyond the outer shape: write one CSV line for each part to stdout, and no cloud
-    #[arg(long, conflicts_with_all = ["output", "ascii", "outliers", "grazing", "seen_from", "ground", "scattered", "largest", "restore", "mark"])]
+    #[arg(long, conflicts_with_all = ["output", "ascii", "distinct", "outliers", "grazing", "seen_from", "ground", "scattered", "largest", "restore", "mark"])]
     check: bool,
+    /// Keep the points whose properties fulfil a condition, such as 'classification != 7 && intensity > 20' (==, !=, <, <=, >, >=, &&, ||, !, brackets; x, y, z and every property; other names in single quotes)
+    #[arg(long = "where", value_name = "EXPR")]
+    condition: Option<Filter>,
+    /// Keep points more than M [m] apart, the first ones in the file; with 0, one of the points that lie in one place
+    #[arg(long, value_name = "M", value_parser = not_negative)]
+    distinct: Option<f64>,
     /// Remove points whose mean distance to K neighbours is more than SIGMA deviations above the mean
     #[arg(long, value_name = "K,SIGMA")]
     outliers: Option<Outliers>,
@@ -86,6 +97,9 @@ fn main() -> ExitCode {
 fn crop(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
     let rules = rules(&args)?;
+    if !args.further.is_empty() {
+        return cropped(&args, &rules, &merged(&args)?);
+    }
     let opened = Opened::new(args.input.open()?).with_context(|| args.input.name())?;
     let opened = match opened {
         Opened::Blocks(blocks) if !args.check && args.is_plain() && crop_rows::can(&blocks, &rules) => {
@@ -94,14 +108,27 @@ fn crop(args: Args) -> anyhow::Result<Report> {
         other => other,
     };
     let cloud = args.input.go_on(opened)?;
-    let (kept, counts) = match cloud::crop(&cloud, &rules) {
+    cropped(&args, &rules, &cloud)
+}
+
+/// All clouds as one.
+fn merged(args: &Args) -> anyhow::Result<cloud::Cloud> {
+    cli::Source::one_stdin(std::iter::once(&args.input.cloud).chain(&args.further))?;
+    let further = args.further.iter().map(|cloud| cli::Input { cloud: cloud.clone(), ..args.input.clone() });
+    let inputs = std::iter::once(args.input.clone()).chain(further);
+    let clouds = inputs.map(|input| input.read_cloud()).collect::<anyhow::Result<Vec<_>>>()?;
+    cloud::merge(clouds).context("cannot merge the clouds")
+}
+
+fn cropped(args: &Args, rules: &Rules, cloud: &cloud::Cloud) -> anyhow::Result<Report> {
+    let (kept, counts) = match cloud::crop(cloud, rules) {
         Err(e @ (CropError::NoViewpoint | CropError::NothingToRestore | CropError::NothingToMark)) => {
             return Err(cli::usage(format!("{}: {e}", args.input.name())));
         }
         done => done.with_context(|| args.input.name())?,
     };
-    words::warn(&counts, &rules);
-    let report = words::report(&counts, &rules, kept.points.len());
+    words::warn(&counts, rules);
+    let report = words::report(&counts, rules, kept.points.len());
     if args.check {
         return words::checked(&counts, report);
     }
@@ -132,6 +159,8 @@ fn rules(args: &Args) -> anyhow::Result<Rules> {
     let mut rules = Rules {
         keep: args.keep.clone(),
         remove: args.remove.clone(),
+        condition: args.condition.clone(),
+        distinct: args.distinct,
         outliers: args.outliers,
         grazing: args.grazing,
         seen_from: args.seen_from.clone(),

@@ -3,6 +3,7 @@
 use anyhow::Context;
 use cli::Report;
 use cloud::crop::{Cropped, Rules};
+use cloud::filter::Filter;
 use cloud::outer::OutsidePart;
 use geom::Shown;
 use std::io::Write;
@@ -20,6 +21,14 @@ pub fn warn(counts: &Cropped, rules: &Rules) {
         cli::warn(&format!(
             "region '{}' contains no point: compare its coordinates with those of the cloud",
             region.name
+        ));
+    }
+    if let Some(crowd) = &counts.crowd {
+        let [x, y, z] = crowd.place;
+        cli::warn(&format!(
+            "{} points lie in one place, ({x}, {y}, {z}) m; rules count each place once. Remove them with --remove \
+             sphere:{x},{y},{z},0.001, or leave one of each place with --distinct 0",
+            crowd.points
         ));
     }
     counts.idle.iter().for_each(|why| cli::warn(why));
@@ -45,6 +54,8 @@ pub fn report(counts: &Cropped, rules: &Rules, written: usize) -> Report {
         .with_all(counts)
         .with("tolerance", rules.outer.tolerance)
         .with("points_written", written)
+        .with("where", rules.condition.as_ref().map(Filter::text))
+        .with("distinct_rule", rules.distinct)
         .with("outliers_rule", rules.outliers)
         .with("grazing_angle", rules.grazing)
         .with("ground_rule", rules.ground)
@@ -57,6 +68,8 @@ fn summary(counts: &Cropped, rules: &Rules) -> String {
     let mut kept = format!("{} of {} points {verb}", counts.points_out, counts.points_in);
     let told = [
         (counts.marked_before > 0, counts.marked_before, "marked before"),
+        (rules.condition.is_some(), counts.unfulfilled, "by their properties"),
+        (rules.distinct.is_some(), counts.repeated, "repeated"),
         (rules.outliers.is_some(), counts.outliers, "outliers"),
         (rules.grazing.is_some(), counts.grazing, "grazing"),
         (rules.ground.is_some(), counts.ground, "ground"),

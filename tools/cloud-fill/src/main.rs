@@ -93,7 +93,7 @@ fn fill(args: Args) -> anyhow::Result<Report> {
         balls,
         seed: args.seed.seed(),
     };
-    let cloud = args.input.read_cloud()?;
+    let cloud = args.input.read_places()?;
     if args.bridge && cloud.viewpoints().next().is_some() {
         let name = args.input.name();
         return Err(cli::usage(format!(

@@ -1,7 +1,9 @@
 //! Reads what is to be shown: runs and walls (MCAP), and clouds, detected by their content.
 
 use crate::args::Args;
+use crate::colours;
 use ::cloud::Cloud;
+use ::cloud::points::ReadWarning;
 use anyhow::Context;
 use cli::Source;
 use record::Ending;
@@ -131,6 +133,10 @@ fn cloud(from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> anyh
             ::cloud::from_bytes(bytes)?
         }
     };
+    let is_answered = |w: &ReadWarning| args.lengths.factor().is_some() && w.is_answered_by_scale();
+    for warning in cloud.warnings.iter().filter(|w| !is_answered(w)) {
+        cli::warn(&format!("{name}: {warning}"));
+    }
     let (mut cloud, dropped) = cloud.finite();
     if factor != 1.0 {
         cloud.scale(factor);
@@ -139,7 +145,8 @@ fn cloud(from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> anyh
         let dropped = geom::counted(dropped, "point");
         cli::warn(&format!("{name}: the picture leaves out {dropped} without finite coordinates"));
     }
-    let table = table(cloud, args.pick)?;
+    let mut table = table(cloud, args.pick)?;
+    colours::to_bytes(&mut table);
     let has = |column| table.get(column).is_some();
     let role = match (has("radius"), has("id")) {
         (true, true) => Role::Grains,

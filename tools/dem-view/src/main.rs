@@ -1,6 +1,7 @@
 //! Shows runs, walls and clouds: one HTML page that plays, a picture, a film, or files for ParaView.
 
 mod args;
+mod colours;
 mod counts;
 mod diagrams;
 mod film;

@@ -22,8 +22,15 @@ pub fn read(bytes: &[u8], factor: Option<f64>) -> anyhow::Result<Read> {
         Err(error) => return Err(error.into()),
     }
     let cloud = cloud::from_bytes(bytes.to_vec()).context("neither a mesh nor a cloud")?;
+    cloud.warnings.iter().for_each(|warning| cli::warn(&warning.to_string()));
     let (mut cloud, _) = cloud.finite();
     cloud.check_reach()?;
+    let places = cloud::places::distinct(&cloud.points, 0.0);
+    if places.len() < cloud.points.len() {
+        let repeated = geom::counted_as(cloud.points.len() - places.len(), "point", ["lies", "lie"]);
+        cli::warn(&format!("{repeated} where another one lies: each place counts once"));
+        cloud = cloud.select(&places);
+    }
     cloud.scale(factor);
     let column = |name| cloud.attributes.get(name);
     let normals = match (column("nx"), column("ny"), column("nz")) {

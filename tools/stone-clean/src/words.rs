@@ -28,6 +28,20 @@ pub fn warn(input: &cli::Source, changes: &Changes, settings: &CleanSettings) {
             percent(changes.islands_area)
         ));
     }
+    if changes.hollows > 0 {
+        cli::warn(&format!(
+            "{input}: {} inside, of {} m³, {} filled: the stone is solid",
+            geom::counted(changes.hollows, "hollow"),
+            Shown(changes.hollow_volume),
+            if changes.hollows == 1 { "is" } else { "are" }
+        ));
+    }
+    if changes.normals_turned > 0 {
+        cli::warn(&format!(
+            "{input}: normals of neighbours look to opposite sides: {} turned, by passing on the side from point to point; compare the volume",
+            geom::counted_as(changes.normals_turned, "normal", ["was", "were"])
+        ));
+    }
     let Some(faces) = settings.faces else { return };
     let change = changes.volume / changes.volume_before - 1.0;
     if change.abs() > VOLUME {
@@ -53,6 +67,13 @@ pub fn warn(input: &cli::Source, changes: &Changes, settings: &CleanSettings) {
 /// One line.
 pub fn summary(changes: &Changes) -> String {
     let mut said = Vec::new();
+    if let Some(within) = changes.welded_within {
+        said.push(format!(
+            "{} joined with others up to {} m away",
+            geom::counted(changes.welded, "corner"),
+            Shown(within)
+        ));
+    }
     if changes.turned > 0 {
         said.push(format!("{} turned", geom::counted(changes.turned, "face")));
     }

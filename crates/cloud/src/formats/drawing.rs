@@ -22,6 +22,7 @@ pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
         0 => vec!["the vertices of a drawing without faces".to_owned()],
         faces => vec![format!("the corners of {faces} triangles")],
     };
-    let comments = comments.into_iter().chain(notes).collect();
-    Ok(Cloud { points: mesh.vertices, attributes, double: true, comments, ..Cloud::default() })
+    let mut cloud = Cloud { points: mesh.vertices, attributes, double: true, comments, ..Cloud::default() };
+    notes.into_iter().for_each(|what| cloud.leave_out(what));
+    Ok(cloud)
 }

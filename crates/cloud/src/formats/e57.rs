@@ -1,10 +1,11 @@
 //! E57, by the `e57` crate: every scan of the file, each in its pose.
 
+use super::e57_extra::Extra;
+use super::e57_point::Fields;
 use super::{ReadError, catch, e57_claims as claims};
 use crate::Cloud;
-use e57::{CartesianCoordinate, E57Reader, Point, PointCloud, Record, RecordName};
+use e57::{E57Reader, PointCloud, RawValues};
 use geom::Vec3;
-use std::collections::BTreeSet;
 use std::io::Cursor;
 use stream::{Table, Values};
 
@@ -24,7 +25,7 @@ fn broken(what: impl ToString, point: u64) -> ReadError {
 #[derive(Default)]
 struct Columns {
     points: Vec<Vec3>,
-    intensity: Vec<f32>,
+    intensity: Vec<f64>,
     color: [Vec<f32>; 3],
     row: Vec<i32>,
     column: Vec<i32>,
@@ -40,45 +41,44 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     let posed = scans.iter().enumerate().map(|(number, scan)| claims::with_sound_pose(number, scan));
     let scans: Vec<PointCloud> = posed.collect::<Result<_, _>>().map_err(|e| broken(e, 0))?;
     let mut columns = Columns::default();
+    let mut extra = Extra::of(&scans);
     for (number, scan) in scans.iter().enumerate() {
         let at = columns.points.len() as u64;
-        let mut points = reader.pointcloud_simple(scan).map_err(|e| broken(e, at))?;
-        points.intensity_to_color(false);
-        points.normalize_intensity(false);
-        points.normalize_color(false);
-        for point in points {
+        let (fields, further) = (Fields::of(scan), extra.in_scan(scan));
+        for row in reader.pointcloud_raw(scan).map_err(|e| broken(e, at))? {
             let at = columns.points.len() as u64;
-            columns.push(point.map_err(|e| broken(e, at))?, number);
+            let mut push = |row| {
+                columns.push(&fields, &row, number)?;
+                extra.push(&row, &further)
+            };
+            row.and_then(&mut push).map_err(|e| broken(e, at))?;
         }
     }
-    columns.into_cloud(&scans)
+    columns.into_cloud(&scans, extra)
 }
 
 impl Columns {
-    fn push(&mut self, point: Point, scan: usize) {
-        self.points.push(match point.cartesian {
-            CartesianCoordinate::Valid { x, y, z } => Vec3::new(x, y, z),
-            // A direction without a distance, or nothing: no echo.
-            _ => Vec3::repeat(f64::NAN),
-        });
-        self.intensity.push(point.intensity.unwrap_or(f32::NAN));
-        let color = point.color.map_or([0.0; 3], |c| [c.red, c.green, c.blue]);
-        for (column, value) in self.color.iter_mut().zip(color) {
+    fn push(&mut self, fields: &Fields, row: &RawValues, scan: usize) -> e57::Result<()> {
+        self.points.push(fields.position(row)?);
+        self.intensity.push(fields.intensity(row)?);
+        for (column, value) in self.color.iter_mut().zip(fields.color(row)?) {
             column.push(value);
         }
-        self.row.push(point.row as i32);
-        self.column.push(point.column as i32);
+        let [line, place] = fields.indices(row)?;
+        self.row.push(line);
+        self.column.push(place);
         self.scan.push(scan.min(u16::MAX as usize) as u16);
+        Ok(())
     }
 
-    fn into_cloud(self, scans: &[PointCloud]) -> Result<Cloud, ReadError> {
+    fn into_cloud(self, scans: &[PointCloud], extra: Extra) -> Result<Cloud, ReadError> {
         let has = |property: fn(&PointCloud) -> bool| scans.iter().any(property);
         let mut attributes = Table::with_rows(self.points.len());
         let mut push = |name: &str, values: Values| {
             attributes.push(name, values).map_err(|source| ReadError::Table { format: "E57", source })
         };
         if has(PointCloud::has_intensity) {
-            push("intensity", Values::F32(self.intensity))?;
+            push("intensity", shortest(self.intensity))?;
         }
         if has(PointCloud::has_color) {
             for (name, column) in ["red", "green", "blue"].into_iter().zip(self.color) {
@@ -92,8 +92,12 @@ impl Columns {
         if scans.len() > 1 {
             push("scan", Values::U32(self.scan.iter().map(|&scan| scan.into()).collect()))?;
         }
-        let comments = left_out(scans).into_iter().collect();
-        let mut cloud = Cloud { points: self.points, attributes, double: true, comments, ..Cloud::default() };
+        let left_out = left_out(&extra.left_out);
+        for (name, values) in extra.into_columns() {
+            push(&name, values)?;
+        }
+        let mut cloud = Cloud { points: self.points, attributes, double: true, ..Cloud::default() };
+        left_out.into_iter().for_each(|what| cloud.leave_out(what));
         // A scanner stands at the origin of its scan; a pose that moves nothing is stated for merged scans as well.
         for t in scans.iter().filter_map(|scan| scan.transform.as_ref()).map(|pose| &pose.translation) {
             let eye = Vec3::new(t.x, t.y, t.z);
@@ -108,21 +112,19 @@ impl Columns {
 /// Longest list of properties that a comment holds [B].
 const LONGEST: usize = 1000;
 
-/// A comment that names the properties of the scans that are not read.
-fn left_out(scans: &[PointCloud]) -> Option<String> {
-    let name = |record: &Record| match &record.name {
-        RecordName::ReturnCount => Some("returnCount".to_owned()),
-        RecordName::ReturnIndex => Some("returnIndex".to_owned()),
-        RecordName::TimeStamp => Some("timeStamp".to_owned()),
-        RecordName::Unknown { namespace, name } => Some(format!("{namespace}:{name}")),
-        _ => None,
-    };
-    let names: BTreeSet<String> =
-        scans.iter().flat_map(|scan| scan.prototype.iter().filter_map(name)).collect();
-    let names = names.into_iter().collect::<Vec<_>>().join(" ");
+/// A comment that names the properties of the scans for which there is no column.
+fn left_out(names: &[String]) -> Option<String> {
     let plain = |c: char| if c.is_ascii_graphic() || c == ' ' { c } else { '_' };
-    let names: String = names.chars().take(LONGEST).map(plain).collect();
-    (!names.is_empty()).then(|| format!("properties of the scans that were left out: {names}"))
+    let text: String = names.join(" ").chars().take(LONGEST).map(plain).collect();
+    (!names.is_empty()).then(|| format!("{} properties of the scans were left out: {text}", names.len()))
+}
+
+/// Numbers of 4 bytes, if none loses a digit by that.
+fn shortest(column: Vec<f64>) -> Values {
+    if column.iter().all(|&v| v.is_nan() || f64::from(v as f32) == v) {
+        return Values::F32(column.iter().map(|&v| v as f32).collect());
+    }
+    Values::F64(column)
 }
 
 /// Colours in the smallest type that holds them all.

@@ -8,11 +8,12 @@
 //!
 //! ASTM E2807-11 (2019).
 
+use super::e57_extra::Extra;
 use e57::{Point, PointCloud, Quaternion, RecordDataType, RecordValue};
 use geom::Shown;
 
-/// Memory of a point in the columns of a cloud [B].
-const OF_A_POINT: u64 = 50;
+/// Memory of a point in the columns of a cloud that each has, and 8 in each other [B].
+const OF_A_POINT: u64 = 54;
 /// Bits of the largest packet of points.
 const PACKET: u64 = 8 << 16;
 /// A file may take so much memory [B], and [`RATIO`] × its length.
@@ -36,6 +37,8 @@ pub(super) fn before_the_header(bytes: &[u8]) -> Result<(), String> {
 /// Refuses scans of more points than the file has bits for, or whose points take more memory than is fair for its length [B].
 pub(super) fn before_the_points(scans: &[PointCloud], length: u64) -> Result<(), String> {
     let (mut promised, mut memory) = (0u64, 0u64);
+    let extra = Extra::of(scans).count() as u64;
+    let of_a_point = OF_A_POINT + 8 * extra;
     for (number, scan) in scans.iter().enumerate().filter(|(_, scan)| scan.records > 0) {
         let points = scan.records;
         let bits = scan.prototype.iter().map(|field| bits(&field.data_type)).sum::<u64>();
@@ -47,7 +50,7 @@ pub(super) fn before_the_points(scans: &[PointCloud], length: u64) -> Result<(),
         promised = promised.saturating_add(points.saturating_mul(bits));
         let field = size_of::<RecordValue>() as u64;
         let waiting = field * scan.prototype.len() as u64 + 2 * size_of::<Point>() as u64;
-        memory = memory.saturating_add(points.saturating_mul(OF_A_POINT));
+        memory = memory.saturating_add(points.saturating_mul(of_a_point));
         memory = memory.saturating_add(points.min(PACKET / bits + 1).saturating_mul(waiting));
     }
     if promised / 8 > length {

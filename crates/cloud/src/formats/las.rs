@@ -2,6 +2,7 @@
 
 use super::las_crs::{projected, reference_system};
 use super::las_extra::{self, ExtraColumn};
+use super::las_units;
 use super::laz::{self, Bytes, Chunk, STACK, Shallow};
 use super::{ReadError, catch};
 use crate::Cloud;
@@ -77,15 +78,17 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
         attributes.push(&name, values).map_err(|source| ReadError::Table { format: "LAS/LAZ", source })?;
     }
     let system = reference_system(&header);
-    let mut comments: Vec<String> =
+    let comments: Vec<String> =
         system.into_iter().map(|name| format!("coordinate reference system {name}")).collect();
+    let mut cloud = Cloud { points: all.points, attributes, double: true, comments, ..Cloud::default() };
     if unknown > 0 {
-        comments.push(format!("{unknown} extra bytes of each point were left out: nothing describes them"));
+        cloud.leave_out(format!("{unknown} extra bytes of each point were left out: nothing describes them"));
     }
     if format.has_waveform {
-        comments.push("the packets of waves were left out".to_owned());
+        cloud.leave_out("the packets of waves were left out".to_owned());
     }
-    Ok(Cloud { points: all.points, attributes, double: true, comments, ..Cloud::default() })
+    cloud.warnings.extend(las_units::warning(&header));
+    Ok(cloud)
 }
 
 /// Steps of coordinates that may be meant [m].

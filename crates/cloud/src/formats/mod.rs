@@ -5,12 +5,16 @@
 mod drawing;
 mod e57;
 mod e57_claims;
+mod e57_extra;
+mod e57_point;
 mod las;
 mod las_crs;
 mod las_extra;
+mod las_units;
 mod laz;
 mod pcd;
 mod ply;
+mod ptx;
 mod xyz;
 mod xyz_columns;
 
@@ -35,11 +39,12 @@ struct Format {
 }
 
 /// Every format that a cloud is read from.
-const FORMATS: [Format; 6] = [
+const FORMATS: [Format; 7] = [
     Format { name: "PLY", matches: ply::matches, read: ply::read },
     Format { name: "LAS/LAZ", matches: las::matches, read: las::read },
     Format { name: "E57", matches: e57::matches, read: e57::read },
     Format { name: "PCD", matches: pcd::matches, read: pcd::read },
+    Format { name: "PTX", matches: ptx::matches, read: ptx::read },
     Format { name: "STL/OBJ", matches: drawing::matches, read: drawing::read },
     Format { name: "XYZ/PTS", matches: xyz::matches, read: xyz::read },
 ];
@@ -53,7 +58,7 @@ pub enum ReadError {
     #[error("nothing to read: the input is empty; did the previous tool fail?")]
     Empty,
     #[error(
-        "no known cloud format begins with {start}{hint}: give PLY, LAS, LAZ, E57, PCD, STL, OBJ or XYZ/PTS text"
+        "no known cloud format begins with {start}{hint}: give PLY, LAS, LAZ, E57, PCD, STL, OBJ, PTX or XYZ/PTS text"
     )]
     Unknown { start: String, hint: &'static str },
     #[error("not a cloud")]
@@ -136,7 +141,7 @@ pub fn from_bytes(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     if mesh::is_step(&bytes) {
         return Err(mesh::MeshFileError::Step.into());
     }
-    let Some(format) = FORMATS.iter().find(|f| (f.matches)(&bytes)) else {
+    let Some(format) = format_of(&bytes) else {
         let start: String =
             bytes.iter().take(12).flat_map(|b| std::ascii::escape_default(*b)).map(char::from).collect();
         return Err(ReadError::Unknown { start: format!("'{start}'"), hint: hint(&bytes) });
@@ -149,7 +154,13 @@ pub fn name_of(bytes: &[u8]) -> Option<&'static str> {
     if mesh::is_step(bytes) {
         return Some("STEP");
     }
-    FORMATS.iter().find(|f| (f.matches)(bytes)).map(|f| f.name)
+    format_of(bytes).map(|f| f.name)
+}
+
+/// The format that `bytes` begin with. Text in UTF-16 is none: its bytes may look like those of a drawing.
+fn format_of(bytes: &[u8]) -> Option<&'static Format> {
+    let is_utf16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+    FORMATS.iter().find(|f| !is_utf16 && (f.matches)(bytes))
 }
 
 /// What else the bytes may be.

@@ -123,7 +123,7 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
     }
     let double = [x, y, z].iter().any(|&a| fields[a].kind != ValueKind::F32);
     let position_column = [x, y, z].into_iter().min().unwrap_or(0).min(attributes.columns().len());
-    let mut cloud = Cloud { points, attributes, double, position_column, comments: Vec::new() };
+    let mut cloud = Cloud { points, attributes, double, position_column, ..Cloud::default() };
     // Zero is what writers state that know of no viewpoint.
     if let Some(eye) = eye.filter(|eye| eye.iter().all(|c| c.is_finite()) && eye.norm() > 0.0) {
         cloud.add_viewpoint(&eye);

@@ -78,7 +78,7 @@ fn from_blocks<R: Read>(mut blocks: Blocks<R>) -> Result<Cloud, ReadError> {
     }
     let double = axes.iter().any(|(kind, _)| *kind != NumberType::F32);
     let comments = std::mem::take(&mut blocks.comments);
-    Ok(Cloud { points, attributes, double, position_column: at[0], comments })
+    Ok(Cloud { points, attributes, double, position_column: at[0], comments, ..Cloud::default() })
 }
 
 /// Adds the points of whole rows of `stride` bytes; types and places of x, y and z.
@@ -111,7 +111,7 @@ fn from_element(element: Element, mut comments: Vec<String>) -> Result<Cloud, Re
     let z = take(&mut attributes, z)?;
     let double = [&x, &y, &z].iter().any(|v| !matches!(v, Values::F32(_)));
     comments.extend(lists.iter().map(|l| format!("the list property {} was left out", l.name)));
-    Ok(Cloud { points: zip(&x, &y, &z), attributes, double, position_column, comments })
+    Ok(Cloud { points: zip(&x, &y, &z), attributes, double, position_column, comments, ..Cloud::default() })
 }
 
 /// Three columns as points.

@@ -5,9 +5,10 @@
 //! a single whole number gives the number of points that follow (PTS; again in front of each further scan).
 
 use super::ReadError;
-use super::xyz_columns::{Header, Named, is_units, pieces, separator};
+use super::xyz_columns::{Header, Named, is_units, pieces, separator, unusual};
 use crate::Cloud;
 use geom::Vec3;
+use std::borrow::Cow;
 use stream::{MOST_COLUMNS, Table, Values};
 
 /// The columns of PTS after x, y, z, by their number.
@@ -34,11 +35,17 @@ pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     let mut number = 0;
     for line in bytes.split(|&b| b == if cr_only { b'\r' } else { b'\n' }) {
         number += 1;
-        let line = std::str::from_utf8(line)
-            .map_err(|_| error(number, "not UTF-8 text", &String::from_utf8_lossy(line)))?;
-        rows.line(number, line)?;
+        rows.line(number, &text(line))?;
     }
     rows.into_cloud(number)
+}
+
+/// A line, of Latin-1 if it is not UTF-8: names and comments may have letters of either.
+fn text(line: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(line) {
+        Ok(text) => text.into(),
+        Err(_) => line.iter().map(|&byte| char::from(byte)).collect::<String>().into(),
+    }
 }
 
 fn error(line: usize, what: impl Into<String>, text: &str) -> ReadError {
@@ -190,7 +197,10 @@ impl Rows {
             }
             let value: f64 = match word {
                 "" => f64::NAN,
-                word => word.parse().map_err(|_| self.not_a_number(number, word, width, line))?,
+                word => match word.parse().ok().or_else(|| unusual(word)) {
+                    Some(value) => value,
+                    None => return Err(self.not_a_number(number, word, width, line)),
+                },
             };
             match self.axes.iter().position(|&axis| axis == width) {
                 Some(axis) => values[axis] = value,
@@ -205,7 +215,7 @@ impl Rows {
             width += 1;
         }
         if width == 1 && self.points.is_empty() && self.promised.is_some() {
-            let what = "a second whole number begins PTX, a grid of a scanner, which is not read: export PTS, E57 or PLY";
+            let what = "a second whole number begins PTX, whose third line is the place of the scanner, x y z: export it again, or as E57";
             return Err(error(number, what, line));
         }
         if width < 3 {
@@ -258,6 +268,7 @@ impl Rows {
             double: true,
             position_column: self.axes.into_iter().min().unwrap_or(0),
             comments: self.comments,
+            ..Cloud::default()
         })
     }
 }

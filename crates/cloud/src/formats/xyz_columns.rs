@@ -4,7 +4,14 @@
 pub(super) type Separator = Option<char>;
 
 /// Names of the axes, in lower case, without a unit.
-const AXES: [&[&str]; 3] = [&["x", "easting"], &["y", "northing"], &["z", "height", "elevation"]];
+const AXES: [&[&str]; 3] = [
+    &["x", "easting", "east", "points:0"],
+    &["y", "northing", "north", "points:1"],
+    &["z", "height", "elevation", "up", "points:2"],
+];
+/// What programs write where there is no value, in lower case.
+const NO_VALUE: [&str; 10] =
+    ["null", "na", "n/a", "#n/a", "-", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "1.#ind"];
 
 /// What separates the numbers of a line; a tab counts only if `tabs` says so, because some programs align columns with several.
 pub(super) fn separator(line: &str, tabs: bool) -> Separator {
@@ -54,6 +61,16 @@ impl<'a> Iterator for Pieces<'a> {
             }
         }
     }
+}
+
+/// A number as programs write it besides: in quotes, with the exponents of Fortran, or a word for no value.
+pub(super) fn unusual(word: &str) -> Option<f64> {
+    let bare = word.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(word).trim();
+    let lower = bare.to_ascii_lowercase();
+    if bare.is_empty() || NO_VALUE.contains(&lower.as_str()) {
+        return Some(f64::NAN);
+    }
+    lower.replacen('d', "e", 1).parse().ok()
 }
 
 /// A line of names.
@@ -168,8 +185,10 @@ fn axes(names: &[String]) -> Option<[usize; 3]> {
 
 /// A name without a unit in brackets behind a blank.
 fn without_unit(name: &str) -> &str {
-    let unit = |(_, unit): &(&str, &str)| unit.ends_with(']');
-    name.split_once(" [").filter(unit).map_or(name, |(name, _)| name.trim())
+    let without = |open: &str, close: char| {
+        name.split_once(open).filter(|(_, unit)| unit.ends_with(close)).map(|(name, _)| name.trim())
+    };
+    without(" [", ']').or_else(|| without(" (", ')')).unwrap_or(name)
 }
 
 /// A name that PLY can hold; colours in the spelling of PLY.

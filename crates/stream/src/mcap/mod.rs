@@ -63,8 +63,17 @@ pub enum McapError {
     Count { found: u64, expected: u64 },
     #[error("MCAP: topic '{topic}' at {time_ns} ns: point cloud: {what}")]
     Points { topic: String, time_ns: u64, what: String },
+    #[error(
+        "MCAP: topic '{topic}': a message of {} s follows one of {} s: write the messages in the order of their times \
+         (docs/files.md#mcap-in-the-order-of-time)", seconds(*time_ns), seconds(*after_ns)
+    )]
+    Order { topic: String, time_ns: u64, after_ns: u64 },
     #[error("MCAP: cannot write")]
     Write(#[source] Box<::mcap::McapError>),
+}
+
+fn seconds(time_ns: u64) -> f64 {
+    time_ns as f64 * 1e-9
 }
 
 impl McapError {

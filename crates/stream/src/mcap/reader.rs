@@ -51,6 +51,8 @@ pub enum Event {
 struct Channel {
     topic: String,
     points: bool,
+    /// Time of its last message [ns].
+    last_ns: u64,
 }
 
 /// Reads an MCAP stream; an iterator that ends after the first error.
@@ -173,7 +175,9 @@ impl<R: Read> Reader<R> {
                 let schema = self.schemas.get(&channel.schema_id);
                 let points = channel.message_encoding == "protobuf"
                     && schema.is_some_and(|name| name == "foxglove.PointCloud");
-                self.channels.insert(channel.id, Channel { topic: channel.topic, points });
+                // Channels are declared again in the summary, and may be at any time.
+                let last_ns = self.channels.get(&channel.id).map_or(0, |known| known.last_ns);
+                self.channels.insert(channel.id, Channel { topic: channel.topic, points, last_ns });
             }
             Record::Metadata(record) if record.name == END_OF_STREAM => self.end(&record.metadata)?,
             Record::Metadata(record) => self.metadata(record.name, record.metadata),
@@ -196,9 +200,13 @@ impl<R: Read> Reader<R> {
         if self.ended {
             return Err(self.malformed("a message follows the end-of-stream record"));
         }
-        let Some(Channel { topic, points }) = self.channels.get(&channel) else {
+        let Some(Channel { topic, points, last_ns }) = self.channels.get_mut(&channel) else {
             return Err(self.malformed("a message of an undeclared channel"));
         };
+        if time_ns < *last_ns {
+            return Err(McapError::Order { topic: topic.clone(), time_ns, after_ns: *last_ns });
+        }
+        *last_ns = time_ns;
         if let Some(digest) = &mut self.digest {
             digest.update(format!("{topic} {time_ns} {} ", data.len()));
             digest.update(&data);

@@ -260,7 +260,7 @@ fn the_digest_depends_on_content_only() {
     assert_eq!((plain.len(), &plain), (64, &digest(&stream(Compression::Zstd))));
     let with = |data: &[u8]| {
         let mut writer = begin(Vec::new(), Compression::None);
-        writer.bytes("/energy", "json", 1, data).unwrap();
+        writer.bytes("/energy", "json", 50_000_000, data).unwrap();
         digest(&writer.finish().unwrap())
     };
     assert!(with(b"{}") != plain && with(b"{}") != with(b"[]"));
@@ -296,4 +296,21 @@ fn a_closed_pipe_is_told_as_an_io_error() {
     drop(read_end);
     let error = Writer::new(write_end, &provenance()).err().unwrap();
     assert!(matches!(error, McapError::Io(e) if e.kind() == io::ErrorKind::BrokenPipe));
+}
+
+/// MCAP allows any order in a file; what reads a stream as it comes would take another frame for the last one.
+#[test]
+fn messages_out_of_order_of_time_are_refused() {
+    let written = |times: [u64; 3]| {
+        let mut writer = Writer::compressed(Vec::new(), &provenance(), Compression::None).unwrap();
+        for time in times {
+            writer.points("/particles", time, "world", table(2)).unwrap();
+            // Other topics have times of their own.
+            writer.bytes("/log", "json", 7, b"{}").unwrap();
+        }
+        writer.finish().unwrap()
+    };
+    assert!(read(&written([1_000_000_000, 3_000_000_000, 3_000_000_000])).is_ok());
+    let told = read(&written([1_000_000_000, 3_000_000_000, 2_500_000_000])).unwrap_err().to_string();
+    assert!(told.contains("'/particles': a message of 2.5 s follows one of 3 s"), "{told}");
 }
