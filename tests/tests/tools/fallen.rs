@@ -44,7 +44,8 @@ fn grains_that_fell_past_all_walls_make_no_bed_higher() {
     for (measure, limit) in [("--bed-height", 0.03), ("--repose", 30.0)] {
         let done = succeed(folder.path(), "dem-measure", &["run.mcap", measure]);
         assert!(done.stderr.contains("2 of 62 grains have fallen past all walls"), "{}", done.stderr);
-        let first = done.stdout.lines().nth(1).expect("a row").split(',').nth(1).expect("a number");
+        let rows = String::from_utf8(done.stdout).expect("text");
+        let first = rows.lines().nth(1).expect("a row").split(',').nth(1).expect("a number");
         let value: f64 = first.parse().expect("a number");
         assert!(value < limit, "{measure}: {value}");
     }

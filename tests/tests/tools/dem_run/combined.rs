@@ -41,10 +41,11 @@ fn what_adheres_at_an_exclusion_plane_makes_no_energy() {
             + "\"\n";
         let rows =
             "x,y,z,radius,vx,vy,vz,wy\n0,0,0.001,0.004,0.2,0,-1,50\n0.012,0,0.002,0.004,-0.2,0,-1,50\n";
-        let folder = folder(&[("s.toml", &scene), ("p.csv", rows)]);
+        let folder = folder(&[("s.toml", &scene), ("p.csv", &rows.to_owned())]);
         let done = run(folder.path(), &[]);
         assert_eq!(done.code, 0, "{motion}: {}", done.stderr);
-        let rows = succeed(folder.path(), "dem-measure", &["run.mcap", "--energy"]).stdout;
+        let rows = String::from_utf8(succeed(folder.path(), "dem-measure", &["run.mcap", "--energy"]).stdout);
+        let rows = rows.expect("text");
         let column = rows.lines().next().expect("a head").split(',').position(|c| c.contains("integration"));
         let column = column.expect("a column for what the step made");
         for row in rows.lines().skip(1) {
@@ -70,7 +71,7 @@ fn a_plate_that_is_drawn_twice_is_one() {
         + "[[particles]]\nsource = \"p.csv\"\nmaterial = \"g\"\n[[wall]]\nmesh = \"m.txt\"\nmaterial = \"g\"\n";
     let rows = "x,y,z,radius,vx,vy,vz\n0.004,-0.006,0.0133,0.005,-0.28,0.076,-0.26\n";
     let ends = [text, twice].map(|mesh| {
-        let folder = folder(&[("s.toml", &scene), ("p.csv", rows), ("m.txt", &mesh)]);
+        let folder = folder(&[("s.toml", &scene), ("p.csv", &rows.to_owned()), ("m.txt", &mesh)]);
         let done = run(folder.path(), &[]);
         assert_eq!(done.code, 0, "{}", done.stderr);
         succeed(folder.path(), "dem-measure", &["run.mcap", "--track", "0"]).stdout
@@ -103,7 +104,7 @@ fn grains_that_touch_a_wall_are_counted_once_each() {
             &(start.clone()
                 + "[[particles]]\nsource = \"p.csv\"\nmaterial = \"g\"\n[[particles]]\nsource = \"w.csv\"\nmaterial = \"g\"\nfixed = true\n"),
         ),
-        ("p.csv", "x,y,z,radius\n-0.0021,0,0.002,0.002\n0.0021,0,0.002,0.002\n"),
+        ("p.csv", &"x,y,z,radius\n-0.0021,0,0.002,0.002\n0.0021,0,0.002,0.002\n".to_owned()),
         ("w.csv", &("x,y,z,radius\n".to_owned() + &wall)),
     ]);
     assert_eq!(run(spheres.path(), &[]).code, 0);
@@ -130,7 +131,7 @@ fn walls_too_dense_for_adhesion_are_named() {
             .collect();
         let folder = folder(&[
             ("s.toml", &scene),
-            ("p.csv", "x,y,z,radius\n0.005,0.005,0.012,0.01\n"),
+            ("p.csv", &"x,y,z,radius\n0.005,0.005,0.012,0.01\n".to_owned()),
             ("w.csv", &("x,y,z,radius\n".to_owned() + &wall)),
         ]);
         let done = run(folder.path(), &[]);
@@ -141,7 +142,7 @@ fn walls_too_dense_for_adhesion_are_named() {
     assert!(warned(adheres, 0.002) && !warned(adheres, 0.005) && !warned("restitution = 0.5", 0.002));
 }
 
-/// What `--set` cures is no fault of a scene; a fault that stays is told at its place in the file.
+/// What `--set` cures is no fault of a scene; of a fault that stays the message names the place in the file.
 #[test]
 fn overrides_may_cure_a_scene() {
     let scene = "gravity = [\"0\", \"0\", \"-9.81 m/s²\"]\ntime.until = 0.001\n".to_owned()
