@@ -22,6 +22,7 @@ use std::{
     time::Instant,
 };
 use stream::mcap::Provenance;
+use stream::reads::Stop;
 
 /// Options of every tool; [`run`] adds them, so a tool need not flatten them.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -140,6 +141,12 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
         && let Some(report) = &report
     {
         let _ = tell(name, report, &common, start);
+    }
+    if code(&error) == exit::STOPPED {
+        let by = report.as_ref().and_then(|r| r.fields.get("stopped")?.as_str());
+        let (stopped, signal) = (one_line(&error), by == Some(record::SIGNAL));
+        // What keeps the record says so itself where it cannot be written.
+        let _ = stream::reads::note_stop(Stop { stopped, signal });
     }
     if !reader_closed_the_pipe(&error) {
         say(&format!("{name}: {}", one_line(&error)));
