@@ -73,6 +73,11 @@ struct Invocation {
 
 static INVOCATION: OnceLock<Invocation> = OnceLock::new();
 
+/// Name of the running tool.
+pub(crate) fn tool() -> &'static str {
+    INVOCATION.get().map_or("grainpipe", |i| i.tool)
+}
+
 /// Whether `-q` was given.
 pub fn quiet() -> bool {
     INVOCATION.get().is_some_and(|i| i.quiet)
@@ -212,21 +217,29 @@ fn help(name: &str, error: &clap::Error) -> ! {
 
 /// Threads that are always allowed, also on a small machine; more than these and [`SHARE`] for each core only wait for each other.
 const ENOUGH: usize = 64;
+/// Environment variable that sets the number of threads where `--threads` does not.
+const VARIABLE: &str = "RAYON_NUM_THREADS";
 /// Threads for each core.
 const SHARE: usize = 4;
 
 /// The calling thread is one of them, so that no work is handed to others and back. It follows that threads which a tool starts itself
 /// must not wait for work of this pool while the main thread waits for them.
 fn set_threads(common: &Common) -> anyhow::Result<()> {
-    let given = common.threads.map_or(0, NonZeroUsize::get);
-    if given > MOST_THREADS {
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    // Rayon takes any number from its variable, and starts as many.
+    let variable = || std::env::var(VARIABLE).ok()?.parse().ok();
+    let (name, given) = match (common.threads, variable().filter(|n: &usize| *n > 0)) {
+        (Some(given), _) => ("--threads", given.get()),
+        (None, Some(given)) => (VARIABLE, given),
+        (None, None) => ("--threads", cores),
+    };
+    if common.threads.is_some() && given > MOST_THREADS {
         return Err(exit::usage(format!("--threads {given}: give at most {MOST_THREADS}")));
     }
-    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let most = ENOUGH.max(SHARE * cores);
     if given > most {
         warn(&format!(
-            "--threads {given}: {most} threads are used: this machine has {cores} cores, and more only wait"
+            "{name} {given}: {most} threads are used: this machine has {cores} cores, and more only wait"
         ));
     }
     let threads = given.min(most);
