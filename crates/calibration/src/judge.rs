@@ -106,6 +106,8 @@ pub struct Judged {
     pub seconds: f64,
     /// Trials: done, stopped by a guard, failed, abandoned.
     pub trials: [usize; 4],
+    /// How many trials use runs that were stopped, and what stopped the first.
+    pub cut: (usize, Option<String>),
 }
 
 /// Judges what came out.
@@ -121,7 +123,9 @@ pub fn judge(recipe: &Recipe, tried: &[Tried], ends: &[StepEnd]) -> Judged {
         let (step, widened) = (e.fitted.step.name.clone(), e.fitted.inflation.sqrt());
         StepFit { step, trials: e.trials, early: e.early, misfit, free, widened, chains: e.samples.ratio }
     };
+    let cut = || tried.iter().filter_map(|t| t.cut.clone());
     Judged {
+        cut: (cut().count(), cut().next()),
         interval: recipe.settings.interval,
         findings: (0..recipe.parameters.len()).filter_map(finding).collect(),
         pairs: ends.last().map_or(Vec::new(), |e| pairs(recipe, e)),

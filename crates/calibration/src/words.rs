@@ -71,6 +71,12 @@ pub fn sentences(judged: &Judged) -> Vec<String> {
 /// Warnings: what makes the intervals doubtful.
 pub fn warnings(judged: &Judged) -> Vec<String> {
     let mut lines = Vec::new();
+    if let (count, Some(first)) = &judged.cut {
+        lines.push(format!(
+            "{} measured on runs that were stopped, such as: {first}: join the programs of the command by && so that such trials count as stopped",
+            geom::counted_as(*count, "trial", ["is", "are"])
+        ));
+    }
     for s in judged.steps.iter().filter(|s| s.widened > 1.0) {
         let at_bound = judged.findings.iter().filter(|f| f.step == s.step && f.at_bound);
         let at_bound: Vec<String> =

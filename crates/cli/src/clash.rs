@@ -5,6 +5,7 @@ use crate::{
     exit::usage,
     target::{folder, target},
 };
+use anyhow::Context;
 use clap::{Arg, ArgMatches, Command};
 use std::{
     path::{Path, PathBuf},
@@ -53,15 +54,25 @@ pub(crate) fn refuse(command: &Command, matches: &ArgMatches) -> anyhow::Result<
         }
     }
     let outputs = WRITTEN.get_or_init(|| outputs);
-    against(outputs, command.get_arguments().flat_map(|argument| read_by(argument, matches)))
+    let inputs: Vec<PathBuf> =
+        command.get_arguments().flat_map(|argument| read_by(argument, matches)).collect();
+    against(outputs, inputs.iter().cloned())?;
+    note(inputs.into_iter().chain(stream::reads::stdin()))
 }
 
-/// Refuses an output of the command line that is one of `files`, which the tool is about to read: those that a scene names.
+/// Adds files to the record of what this command reads, where one is kept ([`stream::reads`]).
+fn note(files: impl IntoIterator<Item = PathBuf>) -> anyhow::Result<()> {
+    stream::reads::note(files).with_context(|| format!("{}: cannot write there", stream::reads::VARIABLE))
+}
+
+/// Refuses an output of the command line that is one of `files`, which the tool is about to read: those that a scene names. They are noted as read.
 ///
 /// # Errors
 /// Wrong usage.
 pub fn also_reads(files: impl IntoIterator<Item = PathBuf>) -> anyhow::Result<()> {
-    WRITTEN.get().map_or(Ok(()), |outputs| against(outputs, files))
+    let files: Vec<PathBuf> = files.into_iter().collect();
+    WRITTEN.get().map_or(Ok(()), |outputs| against(outputs, files.iter().cloned()))?;
+    note(files)
 }
 
 fn against(outputs: &[OutputFile], inputs: impl IntoIterator<Item = PathBuf>) -> anyhow::Result<()> {

@@ -5,6 +5,8 @@ use std::{error::Error, fmt, io};
 
 /// Exit code of wrong usage.
 pub const USAGE: u8 = 2;
+/// The tool failed.
+pub(crate) const FAILED: u8 = 1;
 /// Exit code of a run that a guard stopped; its output is valid.
 pub const STOPPED: u8 = 3;
 

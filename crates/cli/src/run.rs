@@ -22,6 +22,7 @@ use std::{
     time::Instant,
 };
 use stream::mcap::Provenance;
+use stream::reads::Stop;
 
 /// Options of every tool; [`run`] adds them, so a tool need not flatten them.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -71,6 +72,11 @@ struct Invocation {
 }
 
 static INVOCATION: OnceLock<Invocation> = OnceLock::new();
+
+/// Name of the running tool.
+pub(crate) fn tool() -> &'static str {
+    INVOCATION.get().map_or("grainpipe", |i| i.tool)
+}
 
 /// Whether `-q` was given.
 pub fn quiet() -> bool {
@@ -141,6 +147,12 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
     {
         let _ = tell(name, report, &common, start);
     }
+    if code(&error) == exit::STOPPED {
+        let by = report.as_ref().and_then(|r| r.fields.get("stopped")?.as_str());
+        let (stopped, signal) = (one_line(&error), by == Some(record::SIGNAL));
+        // What keeps the record says so itself where it cannot be written.
+        let _ = stream::reads::note_stop(Stop { stopped, signal });
+    }
     if !reader_closed_the_pipe(&error) {
         say(&format!("{name}: {}", one_line(&error)));
     }
@@ -205,21 +217,29 @@ fn help(name: &str, error: &clap::Error) -> ! {
 
 /// Threads that are always allowed, also on a small machine; more than these and [`SHARE`] for each core only wait for each other.
 const ENOUGH: usize = 64;
+/// Environment variable that sets the number of threads where `--threads` does not.
+const VARIABLE: &str = "RAYON_NUM_THREADS";
 /// Threads for each core.
 const SHARE: usize = 4;
 
 /// The calling thread is one of them, so that no work is handed to others and back. It follows that threads which a tool starts itself
 /// must not wait for work of this pool while the main thread waits for them.
 fn set_threads(common: &Common) -> anyhow::Result<()> {
-    let given = common.threads.map_or(0, NonZeroUsize::get);
-    if given > MOST_THREADS {
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    // Rayon takes any number from its variable, and starts as many.
+    let variable = || std::env::var(VARIABLE).ok()?.parse().ok();
+    let (name, given) = match (common.threads, variable().filter(|n: &usize| *n > 0)) {
+        (Some(given), _) => ("--threads", given.get()),
+        (None, Some(given)) => (VARIABLE, given),
+        (None, None) => ("--threads", cores),
+    };
+    if common.threads.is_some() && given > MOST_THREADS {
         return Err(exit::usage(format!("--threads {given}: give at most {MOST_THREADS}")));
     }
-    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let most = ENOUGH.max(SHARE * cores);
     if given > most {
         warn(&format!(
-            "--threads {given}: {most} threads are used: this machine has {cores} cores, and more only wait"
+            "{name} {given}: {most} threads are used: this machine has {cores} cores, and more only wait"
         ));
     }
     let threads = given.min(most);

@@ -61,22 +61,35 @@ fn hangup_is_ignored() -> bool {
     mask.is_none_or(|mask| mask >> (SIGHUP - 1) & 1 == 1)
 }
 
+fn remove(unfinished: &[(PathBuf, Keep)]) {
+    for (path, _) in unfinished.iter().filter(|(_, keep)| !keep.kept()) {
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+/// Removes unfinished files before the process ends, unless one is being created at this instant.
+pub(crate) fn remove_unfinished() {
+    if let Ok(unfinished) = UNFINISHED.try_lock() {
+        remove(&unfinished);
+    }
+}
+
 fn listen() {
     // Without a listener a signal leaves the hidden file behind, which is harmless.
     let hangup = Some(SIGHUP).filter(|_| !hangup_is_ignored());
     let Ok(mut signals) = Signals::new(TERM_SIGNALS.iter().copied().chain(hangup)) else { return };
-    std::thread::spawn(move || {
+    let listener = move || {
         for signal in signals.forever() {
             let polite = [SIGINT, SIGTERM, SIGHUP].contains(&signal);
             if polite && ORDERLY.load(SeqCst) && !STOP.swap(true, SeqCst) {
                 continue;
             }
             let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
-            for (path, _) in unfinished.iter().filter(|(_, keep)| !keep.kept()) {
-                let _ = std::fs::remove_file(path);
-            }
+            remove(&unfinished);
             // With the lock still held, so that no file is begun any more.
             let _ = emulate_default_handler(signal);
         }
-    });
+    };
+    // As without signals: where there is no memory for a thread, the hidden file is left behind.
+    let _ = std::thread::Builder::new().spawn(listener);
 }

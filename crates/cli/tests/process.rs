@@ -1,5 +1,6 @@
 //! What a process does: exit codes, pipes, files that appear when whole. Starts itself as a tool.
 
+mod outside;
 mod tool;
 
 use serde_json::Value;
@@ -18,11 +19,14 @@ fn main() -> ExitCode {
     if std::env::var_os(tool::SWITCH).is_some() {
         return tool::main();
     }
-    let tests: [(&str, Test); 19] = [
+    let tests: [(&str, Test); 22] = [
         ("a file appears when it is whole, with ordinary permissions", a_file_appears_when_it_is_whole),
         ("a failed tool leaves the old file and nothing else", a_failed_tool_leaves_the_old_file),
         ("a panic leaves nothing", a_panic_leaves_nothing),
         ("a signal leaves nothing", a_signal_leaves_nothing),
+        ("too little memory is one line", outside::too_little_memory_is_one_line),
+        ("threads of a variable have the same limit", outside::threads_of_a_variable),
+        ("what a tool reads is noted", outside::what_a_tool_reads_is_noted),
         ("links stay links, devices and pipes stay what they are", links_and_pipes_stay),
         ("a link without a target stays, and its target is created", a_dangling_link_stays),
         ("a file that is replaced keeps its mode and owner", a_replaced_file_keeps_its_mode),

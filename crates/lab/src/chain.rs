@@ -15,6 +15,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
+use stream::reads::{self, RECORD};
 
 /// Where a program writes its messages.
 const WORDS: &str = "words";
@@ -48,9 +49,14 @@ impl Place {
         std::fs::read_to_string(self.folder.join(name)).is_ok_and(|old| old == self.stamp)
     }
 
+    /// Whether its files are made from this sample, and all that the programs have read is as it was.
+    fn is_of_this(&self) -> bool {
+        self.holds(STAMP) && reads::changed(&self.folder.join(RECORD), None).is_empty()
+    }
+
     /// Whether this specimen has come to its end there.
     pub(crate) fn is_finished(&self) -> bool {
-        self.holds(STAMP) && self.holds(FINISHED)
+        self.is_of_this() && self.holds(FINISHED)
     }
 
     fn lock(&self) -> PathBuf {
@@ -84,7 +90,7 @@ pub(crate) struct Chain<'a> {
 impl Chain<'_> {
     /// Makes the folder; what another sample, other options or other programs have left there is removed.
     pub(crate) fn begin(&self) -> Result<()> {
-        let (kept, folder) = (self.place.holds(STAMP), &self.place.folder);
+        let (kept, folder) = (self.place.is_of_this(), &self.place.folder);
         if !kept && self.file(STAMP).exists() {
             // Away at once: a process that is killed here leaves no half of it.
             let old = folder.with_added_extension(format!("part-{}", jobs::here()));
@@ -145,7 +151,14 @@ impl Chain<'_> {
         let report = self.report(&report)?;
         match report["stopped"].as_str() {
             Some(record::SIGNAL) => Err(LabError::Interrupted),
-            Some(why) => Err(LabError::Stopped { run: name.to_owned(), why: why.to_owned() }),
+            Some(why) => {
+                let of = report["until"]
+                    .as_f64()
+                    .map_or(String::new(), |until| format!(" of {} s", geom::Shown(until)));
+                let reached =
+                    format!("t = {} s{of}", geom::Shown(report["time"].as_f64().unwrap_or(f64::NAN)));
+                Err(LabError::Stopped { run: name.to_owned(), reached, why: why.to_owned() })
+            }
             None => Ok(report),
         }
     }
@@ -179,8 +192,11 @@ impl Chain<'_> {
         let said = self.file(WORDS);
         let stderr = File::create(&said).map_err(LabError::file(&said, "cannot write it"))?;
         let mut command = Command::new(self.programs.folder.join(program));
+        let record =
+            std::path::absolute(self.file(RECORD)).map_err(LabError::file(&said, "cannot be found"))?;
         command
             .args(words)
+            .env(reads::VARIABLE, record)
             .current_dir(&self.place.folder)
             .stdin(Stdio::null())
             .stdout(Stdio::null())

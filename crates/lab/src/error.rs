@@ -33,8 +33,8 @@ pub enum LabError {
     #[error("{specimen}: {program} failed with exit code {code}: {words}")]
     Program { specimen: String, program: String, code: i32, words: String },
     /// A guard has stopped the run of a specimen.
-    #[error("{run}: stopped by a guard: {why}")]
-    Stopped { run: String, why: String },
+    #[error("{run}: stopped by a guard at {reached}: {why}")]
+    Stopped { run: String, reached: String, why: String },
     #[error("cannot start threads")]
     Threads(#[from] rayon::ThreadPoolBuildError),
     #[error(

@@ -10,6 +10,7 @@
 //! also relative to the energy exchanged so far: the largest change of any other term.
 
 use crate::observer::Observer;
+use crate::overview::CURVES;
 use crate::run::Ledger;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
@@ -174,22 +175,44 @@ impl Observer for Energy {
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {
-        let terms: Vec<(&str, usize)> =
-            self.terms.iter().enumerate().map(|(k, t)| (t.as_str(), k + 1)).collect();
-        let error = self.terms.len() + 2;
-        Chart::new("Energy").columns(("time [s]", 0), "energy [J]", &terms, rows).columns(
-            ("time [s]", 0),
-            "closure error [J]",
-            &[("", error)],
-            rows,
-        )
+        let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::max);
+        let terms = self.terms.iter().enumerate().map(|(k, term)| (term.as_str(), k + 1));
+        let mut terms: Vec<(&str, usize)> = terms.filter(|(_, column)| largest(*column) > 0.0).collect();
+        terms.sort_by(|a, b| largest(b.1).total_cmp(&largest(a.1)));
+        let mut chart = Chart::new("Energy");
+        for (n, some) in terms.chunks(CURVES).enumerate() {
+            let label = if n == 0 { "energy [J]" } else { "energy, smaller terms [J]" };
+            chart = chart.columns(("time [s]", 0), label, some, rows);
+        }
+        chart.columns(("time [s]", 0), "closure error [J]", &[("", self.terms.len() + 2)], rows)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sheet::Panel;
     use std::collections::BTreeMap;
+
+    /// Terms that are 0 have no curve, and no panel has two curves of one colour.
+    #[test]
+    fn curves_of_a_panel_have_colours_of_their_own() {
+        let names: Vec<String> = (0..20).map(|k| format!("term{k}")).collect();
+        let mut energy = Energy::new((f64::NEG_INFINITY, f64::INFINITY));
+        energy.terms = names;
+        let row = |time: f64| {
+            let terms = (0..20).map(|k| if k < 11 { f64::from(k) * time } else { 0.0 });
+            [time].into_iter().chain(terms).chain([0.0; 3]).collect::<Row>()
+        };
+        let chart = energy.chart(&[row(0.0), row(1.0)]);
+        let curves = |panel: &Panel| match panel {
+            Panel::Curves { curves, .. } => curves.iter().map(|c| c.name.clone()).collect::<Vec<_>>(),
+            Panel::Map { .. } => Vec::new(),
+        };
+        let found: Vec<Vec<String>> = chart.panels.iter().map(curves).collect();
+        assert_eq!(found.iter().map(Vec::len).collect::<Vec<_>>(), [8, 2, 1]);
+        assert_eq!((&*found[0][0], &*found[1][1]), ("term10", "term1"));
+    }
 
     fn ledger(balance: f64) -> Ledger {
         let terms =

@@ -12,7 +12,7 @@ use crate::{Crossing, Frame, Run, RunMessage, WallForces};
 const POINTS: usize = 500;
 
 /// Most curves of a panel: there are no more colours.
-const CURVES: usize = 8;
+pub(crate) const CURVES: usize = 8;
 
 /// Most terms of the energy ledger that are shown.
 const TERMS: usize = 6;

@@ -6,9 +6,12 @@
 //! ε_v = 1 − det F                    rest: root mean square of what F does not explain, Σ |x − x̄ − F (X − X̄)|²
 //! ```
 //!
+//! In a periodic domain x is the image that the grain has come to since the first frame, by any number of periods of the domain as it is now.
+//!
 //! The fit of Falk & Langer (1998), Phys. Rev. E 57, doi:10.1103/PhysRevE.57.7192, over all grains at once.
 
 use crate::observer::OfFrame;
+use crate::path::{Passage, unsure_note};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{Frame, MeasureError, Run};
 use geom::{Shape, Vec3};
@@ -59,15 +62,49 @@ impl Fit {
 /// Measures the mean strain of grains.
 pub struct Strain {
     within: Option<Shape>,
-    /// Where each grain was in the first frame [m], by id.
-    start: BTreeMap<u64, Vec3>,
+    /// Each grain of the first frame, by id.
+    start: BTreeMap<u64, Followed>,
+    /// Ways through periodic faces that may be wrong by a period.
+    unsure: u64,
     last: Option<(f64, Fit)>,
+}
+
+/// A grain of the first frame.
+#[derive(Debug, Clone, Copy)]
+struct Followed {
+    /// Where it was there [m].
+    first: Vec3,
+    /// Time [s], position [m] and velocity [m/s] in the last frame that holds it.
+    time: f64,
+    state: (Vec3, Vec3),
+    /// Periods that it has passed along each axis [–].
+    periods: Vec3,
+}
+
+impl Followed {
+    fn new(time: f64, state: (Vec3, Vec3)) -> Followed {
+        Followed { first: state.0, time, state, periods: Vec3::zeros() }
+    }
+
+    /// Takes it to the next frame; whether the number of periods is sure.
+    fn follow(&mut self, frame: &Frame, state: (Vec3, Vec3)) -> bool {
+        let passage = Passage::new(&frame.periodic, [self.time, frame.time], self.state, state);
+        let count = |shift: f64, length: f64| if length > 0.0 { (shift / length).round() } else { 0.0 };
+        self.periods += passage.shift.zip_map(&frame.periodic.lengths(), count);
+        (self.time, self.state) = (frame.time, state);
+        passage.sure
+    }
+
+    /// How far it is from where it was first [m], in a domain as it is in a frame.
+    fn moved(&self, frame: &Frame) -> Vec3 {
+        self.state.0 + self.periods.component_mul(&frame.periodic.lengths()) - self.first
+    }
 }
 
 impl Strain {
     /// Of the grains whose centres a shape holds in the first frame; `None`: of all.
     pub fn new(within: Option<Shape>) -> Strain {
-        Strain { within, start: BTreeMap::new(), last: None }
+        Strain { within, start: BTreeMap::new(), unsure: 0, last: None }
     }
 }
 
@@ -83,18 +120,21 @@ impl OfFrame for Strain {
     fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
         if self.start.is_empty() {
             let held = |x: &Vec3| self.within.as_ref().is_none_or(|shape| run.holds(shape, x));
-            let all = frame.id.iter().copied().zip(frame.position.iter().copied());
-            self.start = all.filter(|(_, x)| held(x)).collect();
+            let states = frame.position.iter().copied().zip(frame.velocity.iter().copied());
+            let all = frame.id.iter().copied().zip(states).filter(|(_, (x, _))| held(x));
+            self.start = all.map(|(id, state)| (id, Followed::new(frame.time, state))).collect();
             if self.start.len() < FEWEST {
                 let most = self.start.len();
                 return Err(MeasureError::FewGrains { what: "a mean strain", most, wanted: FEWEST });
             }
         }
         let (mut places, mut moved) = (Vec::new(), Vec::new());
-        for (id, now) in frame.id.iter().zip(&frame.position) {
-            if let Some(place) = self.start.get(id) {
-                places.push(*place);
-                moved.push(run.periodic.way(place, now));
+        let states = frame.position.iter().copied().zip(frame.velocity.iter().copied());
+        for (id, state) in frame.id.iter().zip(states) {
+            if let Some(grain) = self.start.get_mut(id) {
+                self.unsure += u64::from(!grain.follow(frame, state));
+                places.push(grain.first);
+                moved.push(grain.moved(frame));
             }
         }
         let Some(fit) = Fit::of(&places, &moved) else { return Ok(Vec::new()) };
@@ -116,7 +156,7 @@ impl OfFrame for Strain {
             .with("volumetric", "1", fit.volumetric())
             .with("rest", "m", fit.rest)
             .with("time", "s", time);
-        Ok((Vec::new(), summary))
+        Ok((Vec::new(), unsure_note(self.unsure).into_iter().fold(summary, Summary::note)))
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {
@@ -133,6 +173,7 @@ impl OfFrame for Strain {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::periodic::PeriodicBox;
 
     /// Grains that are squeezed, sheared and turned a little: found to the last digits, whatever the shift is.
     #[test]
@@ -155,6 +196,33 @@ mod tests {
         own[13] += Vec3::new(0.0, 0.0, 0.027);
         let rest = Fit::of(&places, &own).expect("enough grains").rest;
         assert!((rest / (0.027 / 27f64.sqrt()) - 1.0).abs() < 0.1, "{rest}");
+    }
+
+    /// Shear by three times the height of a periodic cell, in frames of which each is less than a period later.
+    #[test]
+    fn shear_beyond_a_period_is_found() {
+        let periodic = PeriodicBox { range: [Some((0.0, 1.0)), None, None] };
+        let run = Run { periodic, ..Default::default() };
+        let mut strain = Strain::new(None);
+        let places: Vec<Vec3> = (0..64)
+            .map(|k| Vec3::new(f64::from(k % 4) / 4.0, f64::from(k / 4 % 4) / 4.0, f64::from(k / 16) / 4.0))
+            .collect();
+        let mut last = 0.0;
+        for step in 0..=30 {
+            let gamma = 0.1 * f64::from(step);
+            let at = |x: &Vec3| Vec3::new((x.x + gamma * x.z).rem_euclid(1.0), x.y, x.z);
+            let frame = Frame {
+                time: f64::from(step),
+                id: (0..64).collect(),
+                position: places.iter().map(at).collect(),
+                velocity: places.iter().map(|x| Vec3::new(0.1 * x.z, 0.0, 0.0)).collect(),
+                periodic,
+                ..Frame::default()
+            };
+            let rows = strain.measure(&run, &frame).unwrap();
+            last = rows[0][5];
+        }
+        assert!((last + 1.5).abs() < 1e-9, "ε_xz = −γ/2: {last}");
     }
 
     #[test]

@@ -29,16 +29,19 @@ impl Ending {
         }
     }
 
+    /// `stopped by a guard at 1.95 s of 8 s`; `None` if nothing stopped it.
+    pub fn words(&self) -> Option<String> {
+        let LogMessage { text, time, .. } = self.stopped.as_ref()?;
+        let of = self.until.map_or(String::new(), |until| format!(" of {} s", Shown(until)));
+        let by = if text == SIGNAL { "signal" } else { "guard" };
+        Some(format!("stopped by a {by} at {} s{of}", Shown(*time)))
+    }
+
     /// A warning before the run is used: what stopped it, when, of how much; `None` if nothing did.
     pub fn warning(&self) -> Option<String> {
-        let LogMessage { text, time, .. } = self.stopped.as_ref()?;
-        let by_signal = text == SIGNAL;
-        let of = self.until.map_or(String::new(), |until| format!(" of {} s", Shown(until)));
-        let (by, why) = if by_signal { ("signal", String::new()) } else { ("guard", format!(": {text}")) };
-        Some(format!(
-            "the run was stopped by a {by} at {} s{of}, and what comes after is missing{why}",
-            Shown(*time)
-        ))
+        let (stop, words) = (self.stopped.as_ref()?, self.words()?);
+        let why = if stop.text == SIGNAL { String::new() } else { format!(": {}", stop.text) };
+        Some(format!("the run was {words}, and what comes after is missing{why}"))
     }
 }
 

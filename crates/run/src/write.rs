@@ -43,6 +43,9 @@ impl<W: Write> Run<W> {
             let given = || self.supply.given.clone();
             self.before = held.then(|| Before { given: given(), state: self.sim.checkpoint().to_static() });
         }
+        if resumed && frame && self.written.output.contacts {
+            self.drop_work()?;
+        }
         if resumed || !(frame || checkpoint) {
             return Ok(());
         }
@@ -56,6 +59,14 @@ impl<W: Write> Run<W> {
             self.write_frame()?;
         }
         Ok(self.writer.flush_chunk()?)
+    }
+
+    /// Drops the sliding work that the frame of this instant has: its checkpoint was saved before it, so that the first frame of the resumed run would
+    /// have that work once more.
+    fn drop_work(&mut self) -> Result<(), Ended> {
+        self.let_in()?;
+        self.sim.record_contacts()?;
+        Ok(())
     }
 
     fn write_frame(&mut self) -> Result<(), Ended> {

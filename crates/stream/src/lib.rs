@@ -3,6 +3,7 @@
 pub mod mcap;
 pub mod number_type;
 pub mod ply;
+pub mod reads;
 mod rows;
 mod shell;
 pub mod state;
@@ -11,7 +12,7 @@ pub mod whole;
 
 pub use number_type::NumberType;
 pub use rows::{Fill, Line, Rows};
-pub use shell::quoted;
+pub use shell::{quoted, reads_more, words};
 pub use table::{Column, MOST_COLUMNS, Table, Values};
 
 use sha2::{Digest, Sha256};

@@ -1,6 +1,6 @@
 //! The attack in short, with another seed than the page's.
 
-use crate::attack::{Findings, files, kills, options, scenes, silent};
+use crate::attack::{Findings, files, kills, limits, options, scenes, silent};
 
 /// One case in this many of those that are not drawn.
 const ONE_IN: usize = 12;
@@ -11,6 +11,7 @@ fn no_attack_ends_in_a_panic_without_bound_or_with_output_that_only_looks_whole(
     found.run(files::cases(20, 500));
     found.run(scenes::cases().into_iter().step_by(ONE_IN + 1).collect());
     found.run(options::cases().into_iter().step_by(ONE_IN + 1).collect());
+    found.run(limits::cases().into_iter().step_by(ONE_IN + 1).collect());
     kills::run(20, 4, &mut found);
     assert!(found.count() > 700, "only {} cases", found.count());
     assert!(found.bad.is_empty(), "{}\n{}", found.table(), found.list());

@@ -35,6 +35,7 @@ mod scene;
 mod settled_bed;
 mod sinter_box;
 mod stage_variants;
+mod stale;
 mod streams;
 mod view_in_chromium;
 mod walls_told;

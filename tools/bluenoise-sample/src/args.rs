@@ -19,7 +19,7 @@ pub struct Args {
     #[command(flatten)]
     pub output: cli::CloudOutput,
     /// Least distance between kept points (grid: distance between its nodes) [m]
-    #[arg(long, value_name = "M", value_parser = geom::number::finite)]
+    #[arg(long, value_name = "M", value_parser = cli::length)]
     spacing: Option<f64>,
     /// Number of points to keep (within 1 %; exact below 200 and with eliminate; grid: the nearest count that a grid can have)
     #[arg(long, value_name = "N")]

@@ -30,10 +30,10 @@ struct Args {
     #[command(flatten)]
     output: cli::CloudOutput,
     /// Smallest distance between added points [m] (default: as dense as the surroundings)
-    #[arg(long, value_name = "M", value_parser = positive)]
+    #[arg(long, value_name = "M", value_parser = cli::length)]
     spacing: Option<f64>,
     /// Also fill surface where the scan is too sparse for bluenoise-sample --spacing M [m]
-    #[arg(long, value_name = "M", value_parser = positive)]
+    #[arg(long, value_name = "M", value_parser = cli::length)]
     for_spacing: Option<f64>,
     /// Fill where there are at most DENSITY points per m² (default: a quarter of the density around)
     #[arg(long, value_name = "DENSITY", value_parser = positive)]
@@ -48,7 +48,7 @@ struct Args {
     #[arg(long, conflicts_with = "seen_from")]
     bridge: bool,
     /// Widest hole to fill [m] (default: a fifth of the cloud's diagonal)
-    #[arg(long, value_name = "M", value_parser = positive)]
+    #[arg(long, value_name = "M", value_parser = cli::length)]
     max_hole: Option<f64>,
     /// How added points are spread: blue-noise, random or grid
     #[arg(long, value_name = "METHOD", default_value = "blue-noise")]
@@ -57,7 +57,7 @@ struct Args {
     #[arg(long, value_name = "METHOD", default_value = "ball-pivoting")]
     method: Mesher,
     /// Radii of the balls that mesh a hole [m] (default: fitted to each hole)
-    #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = positive)]
+    #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = cli::length)]
     ball: Vec<f64>,
     /// Write the meshes of the holes to FILE (PLY)
     #[arg(long, value_name = "FILE")]

@@ -40,6 +40,12 @@ fn cost_curve(args: Args) -> anyhow::Result<Report> {
             "{folder}: {old} of {runs} runs there used another scene, input or program: they are run again"
         ));
     }
+    if let Some(word) = &open.unknown {
+        cli::warn(&format!(
+            "{}: runs there are used again; --each has '{word}', which may read files that the line does not name: remove the folder where such a file has changed",
+            study.folder.display()
+        ));
+    }
     if args.print_commands {
         write(Path::new("-"), report::commands(&open.jobs).as_bytes())?;
         let count = open.jobs.len();

@@ -2,7 +2,7 @@
 
 use clap::{ArgGroup, Parser};
 use cli::{Output, Source, usage};
-use geom::number::{finite, positive};
+use geom::number::finite;
 use geom::{Plane, Shape, Vec3};
 use measure::profile::Turn;
 use std::path::PathBuf;
@@ -128,7 +128,7 @@ pub struct Args {
     #[arg(long, value_name = "LO,HI", value_parser = pair, help_heading = "How")]
     pub fractions: Option<[f64; 2]>,
     /// Width of the bins of the profile [m] (default: a mean diameter) [repose, bed-slope]
-    #[arg(long, value_name = "M", value_parser = positive, help_heading = "How")]
+    #[arg(long, value_name = "M", value_parser = cli::length, help_heading = "How")]
     pub bin: Option<f64>,
     /// Height of the ground [m] (default: that of the lowest grains) [repose, bed-height]
     #[arg(long, value_name = "M", value_parser = finite, allow_hyphen_values = true, help_heading = "How")]
@@ -158,10 +158,10 @@ pub struct Args {
     #[arg(long, value_name = "NAME", help_heading = "How")]
     pub field: Vec<String>,
     /// Side of the cells [m] [segregation: default 3 mean diameters; wear]
-    #[arg(long, value_name = "M", value_parser = positive, help_heading = "How")]
+    #[arg(long, value_name = "M", value_parser = cli::length, help_heading = "How")]
     pub cell: Option<f64>,
     /// The first kind is grains larger than M [m] (default: the median) [segregation]
-    #[arg(long, value_name = "M", value_parser = positive, conflicts_with = "kind", help_heading = "How")]
+    #[arg(long, value_name = "M", value_parser = cli::length, conflicts_with = "kind", help_heading = "How")]
     pub split: Option<f64>,
     /// The first kind is grains of this material [segregation]
     #[arg(long, value_name = "MATERIAL", help_heading = "How")]

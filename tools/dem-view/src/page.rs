@@ -3,6 +3,8 @@
 use crate::{args::Args, counts, diagrams::Diagrams, inputs};
 use anyhow::Context;
 use cli::{Output, Report};
+use record::Ending;
+use std::collections::BTreeMap;
 use view::{Page, PageContent, PageOptions};
 
 /// Writes the page of everything given.
@@ -26,8 +28,14 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
         dark: args.dark,
         pick: if args.pick { names.first().cloned() } else { None },
     });
-    let mut measured = Diagrams::default();
-    let seen = inputs::read_watched(args, &mut page, &mut |run, event| measured.take(run, event))?;
+    let (mut measured, mut endings) = (Diagrams::default(), BTreeMap::<String, Ending>::new());
+    let seen = inputs::read_watched(args, &mut page, &mut |run, event| {
+        measured.take(run, event);
+        endings.entry(run.to_owned()).or_default().take(event);
+    })?;
+    for (run, words) in endings.iter().filter_map(|(run, ending)| Some((run, ending.words()?))) {
+        page.note(if names.len() > 1 { format!("{run}: {words}") } else { words });
+    }
     measured.warn();
     page.diagrams(measured.finish());
     page.check()?;

@@ -22,7 +22,7 @@ pub struct Args {
     #[arg(long, value_name = "PLANE", allow_hyphen_values = true)]
     at: Option<Plane>,
     /// Length of the zone before the calculation plane [m] (default: that of the run)
-    #[arg(long, value_name = "M", value_parser = geom::number::positive)]
+    #[arg(long, value_name = "M", value_parser = cli::length)]
     length: Option<f64>,
     /// Leave out crossings before S; S becomes time 0 [s]
     #[arg(long, value_name = "S", value_parser = cli::seconds)]

@@ -25,7 +25,7 @@ pub struct Args {
     #[arg(long, value_enum)]
     keep: Keep,
     /// Length of the zone behind the plane [m] (default: 1.2 times the largest diameter)
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", value_parser = cli::length)]
     length: Option<f64>,
     /// Motion in the zone, the same in both stages
     #[arg(long, value_enum, default_value = "recorded")]

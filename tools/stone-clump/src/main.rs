@@ -40,7 +40,7 @@ struct Args {
     #[arg(long, value_enum, default_value = "distance")]
     method: Choice,
     /// Smallest radius of a sphere [m] [default: 1 % of the diameter of a sphere of the stone's volume]
-    #[arg(long, value_name = "M", value_parser = geom::number::positive)]
+    #[arg(long, value_name = "M", value_parser = cli::length)]
     min_radius: Option<f64>,
     /// With --method distance: deepest overlap of two spheres, over the diameter of the smaller one; 0: they touch, 1: one may just enclose the other [default: 0.9]
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -68,11 +68,12 @@ enum Choice {
 
 fn share(text: &str) -> Result<f64, String> {
     let wrong = || "give a share from 0 to 1, such as 0.02 or 2%".to_owned();
-    let value = match text.strip_suffix('%') {
-        Some(percent) => geom::number::finite(percent).map(|p| p / 100.0),
-        None => geom::number::finite(text),
+    // Units keep the digits of a percentage.
+    let value = match text.ends_with('%') {
+        true => geom::units::parse(text, "").ok(),
+        false => geom::number::finite(text).ok(),
     };
-    value.ok().filter(|v| (0.0..=1.0).contains(v)).ok_or_else(wrong)
+    value.filter(|v| (0.0..=1.0).contains(v)).ok_or_else(wrong)
 }
 
 fn main() -> ExitCode {

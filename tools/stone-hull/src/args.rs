@@ -32,10 +32,10 @@ pub struct Args {
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, requires = "poses", conflicts_with = "turntable")]
     pub poses_size: Option<[usize; 2]>,
     /// Longest side of the stone's smallest box, which gives the scale [m]
-    #[arg(long, value_name = "M", value_parser = geom::number::positive)]
+    #[arg(long, value_name = "M", value_parser = cli::length)]
     pub length: Option<f64>,
     /// Side of the black square of the tags that lie beside the stone (AprilTag, family 36h11), which gives the scale [m]
-    #[arg(long, value_name = "M", value_parser = geom::number::positive, conflicts_with = "length")]
+    #[arg(long, value_name = "M", value_parser = cli::length, conflicts_with = "length")]
     pub tag_size: Option<f64>,
     /// Cells along the longest side of the hull
     #[arg(long, value_name = "N", default_value = "200", value_parser = cells)]

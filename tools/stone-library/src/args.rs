@@ -29,7 +29,7 @@ pub struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub variants: Option<u32>,
     /// Sieves between the size classes, growing [m]; class 1 is below the first [default: 1, 2, 4, 8, 16, 31.5, 63, 125 mm and so on]
-    #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = geom::number::positive, allow_hyphen_values = true)]
+    #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = cli::length, allow_hyphen_values = true)]
     sieves: Vec<f64>,
     #[command(flatten)]
     pub seed: cli::Seed,

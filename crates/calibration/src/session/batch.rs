@@ -2,13 +2,13 @@
 
 use super::proposal::Proposal;
 use super::work::Work;
-use super::{Session, Status, Tried, seconds, table};
+use super::{Session, Status, Tried, table};
 use crate::error::{CalibrateError, Result};
 use crate::fit::{misfit, part_misfit};
 use crate::recipe::Step;
 use crate::trial::output::{Outcome, on_grid, outcome};
 use crate::trial::pool::Pool;
-use crate::trial::run::{Ended, is_done};
+use crate::trial::run::{Ended, is_done, is_outdated, tools};
 use crate::trial::{self, Run, Trial};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -51,6 +51,7 @@ impl Session<'_> {
             curves: vec![Vec::new(); self.recipe.tests.len()],
             status: Status::Done,
             why: None,
+            cut: None,
             seconds: 0.0,
             misfit: None,
         }
@@ -122,16 +123,38 @@ impl Session<'_> {
             let mut runs = Vec::new();
             if t.status == Status::Done {
                 for &test in tests {
-                    runs.extend(trial::runs(self.recipe, &self.dir, &t.trial, test, &mut work.hashes));
+                    runs.extend(trial::runs(self.recipe, &self.dir, &t.trial, test));
                 }
-                let open = |r: &Run| !is_done(&r.file, &r.job, work.since);
-                if runs.iter().any(open) {
+                self.say_what_is_used_again(&runs, work);
+                if runs.iter().any(|r| !is_done(&r.file, &r.job, work.since)) {
                     trial::write(self.recipe, &self.dir, &t.trial, &runs)?;
                 }
             }
             all.push(runs);
         }
         Ok(all)
+    }
+
+    /// Says once that runs are made again, and once what of runs that are used again cannot be known.
+    fn say_what_is_used_again(&self, runs: &[Run], work: &mut Work) {
+        let dir = self.dir.display();
+        if !work.outdated && runs.iter().any(|r| is_outdated(&r.file, &r.job)) {
+            work.outdated = true;
+            self.watch.warn(&format!(
+                "{dir}: runs there were made from other files, commands or programs: they are made again"
+            ));
+        }
+        let tools = tools();
+        let known = |program: &str| tools.join(program).is_file();
+        let used = runs.iter().filter(|r| is_done(&r.file, &r.job, work.since));
+        let more = |run: &Run| Some((run.job.test.clone(), stream::reads_more(&run.job.command, known)?));
+        if let Some((test, word)) = used.filter(|_| !work.unknown).find_map(more) {
+            work.unknown = true;
+            self.watch.warn(&format!(
+                "{dir}: runs there are used again; test '{test}' has '{word}', which may read files that its line does not name: remove the folder where such a \
+                 file has changed"
+            ));
+        }
     }
 
     fn work_off(&self, runs: &[Run], work: &Work, step: &str) -> Result<()> {
@@ -153,7 +176,7 @@ impl Session<'_> {
             .run(&open)?;
         if give_up.load(Ordering::SeqCst) {
             let failed = runs.iter().find_map(|r| match outcome(r, &self.recipe.tests[r.test]) {
-                Outcome::Failed(why) if why != "it has no result" => Some((r, why)),
+                Outcome::Failed(why) if !why.starts_with("it has no result") => Some((r, why)),
                 _ => None,
             });
             if let Some((run, why)) = failed {
@@ -169,8 +192,13 @@ impl Session<'_> {
 
     /// Reads what the runs of a trial printed.
     pub(super) fn collect(&self, tried: &mut Tried, runs: &[Run]) {
-        for run in once(runs) {
-            tried.seconds += seconds(trial::run::ended(&run.file, &run.job));
+        for ended in once(runs).iter().filter_map(|run| trial::run::ended(&run.file, &run.job)) {
+            tried.seconds += ended.seconds;
+            if ended.exit == 0
+                && let Some(stop) = ended.stops.into_iter().next()
+            {
+                tried.cut.get_or_insert(stop.stopped);
+            }
         }
         for run in runs {
             match outcome(run, &self.recipe.tests[run.test]) {

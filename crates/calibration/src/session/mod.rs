@@ -16,7 +16,7 @@ use crate::error::{CalibrateError, Result};
 use crate::fit::sample::Length;
 use crate::fit::{Fitted, Place, choice, region::Region, sample::Samples};
 use crate::recipe::{Recipe, Step};
-use crate::trial::{run, run::Ended};
+use crate::trial::run;
 use proposal::Proposal;
 use std::path::PathBuf;
 
@@ -247,9 +247,4 @@ pub fn duration(seconds: f64) -> String {
         s if s < 172_800.0 => format!("{} h", (s / 360.0).round() / 10.0),
         s => format!("{} days", (s / 8640.0).round() / 10.0),
     }
-}
-
-/// The time of a run, for the log.
-fn seconds(ended: Option<Ended>) -> f64 {
-    ended.map_or(0.0, |e| e.seconds)
 }

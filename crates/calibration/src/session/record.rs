@@ -42,6 +42,8 @@ pub struct Tried {
     pub status: Status,
     /// Why it did not end well.
     pub why: Option<String>,
+    /// What stopped a run whose output is used all the same: its command does not end with the exit code of the run.
+    pub cut: Option<String>,
     /// Time of all runs [s].
     pub seconds: f64,
     /// Square of the misfit, of the tests of its step.
@@ -71,7 +73,7 @@ pub fn table(recipe: &Recipe, tried: &[Tried]) -> String {
         for (p, z) in recipe.parameters.iter().zip(&t.trial.z) {
             let _ = write!(text, ",{}", shown(p.value(*z)));
         }
-        let _ = writeln!(text, ",{}", cell(t.why.as_deref().unwrap_or("")));
+        let _ = writeln!(text, ",{}", cell(t.why.as_deref().or(t.cut.as_deref()).unwrap_or("")));
     }
     text
 }

@@ -8,7 +8,7 @@ use crate::fit::region::Region;
 use crate::fit::{Fitted, Place, choice, misfit};
 use crate::judge::quantile;
 use crate::recipe::{Step, shown};
-use crate::trial::run::{Hashes, ended};
+use crate::trial::run::ended;
 use crate::trial::{self, Run, Trial};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -111,19 +111,17 @@ impl<'a> Session<'a> {
         let mut numbers: Vec<usize> =
             list.filter_map(|e| e.ok()?.file_name().to_str()?.parse().ok()).collect();
         numbers.sort_unstable();
-        let (mut hashes, mut tried) = (Hashes::default(), Vec::new());
+        let mut tried = Vec::new();
         let [mut of_others, mut open, mut changed] = [0; 3];
         for number in numbers {
             let folder = trial::folder(&self.dir, number);
             match self.about(&folder) {
                 None => of_others += 1,
-                Some((step, batch, z)) => {
-                    match self.result(Trial { number, step, batch, z }, &folder, &mut hashes) {
-                        Stored::Result(one) => tried.push(*one),
-                        Stored::Open => open += 1,
-                        Stored::Other => changed += 1,
-                    }
-                }
+                Some((step, batch, z)) => match self.result(Trial { number, step, batch, z }, &folder) {
+                    Stored::Result(one) => tried.push(*one),
+                    Stored::Open => open += 1,
+                    Stored::Other => changed += 1,
+                },
             }
         }
         tried.sort_by_key(|t| t.trial.step);
@@ -155,12 +153,12 @@ impl<'a> Session<'a> {
     }
 
     /// What became of a trial. A test counts when all of its seeds have run.
-    fn result(&self, trial: Trial, folder: &Path, hashes: &mut Hashes) -> Stored {
+    fn result(&self, trial: Trial, folder: &Path) -> Stored {
         let step = &self.recipe.steps[trial.step];
         let mut done: Vec<Run> = Vec::new();
         let mut missing = false;
         for test in self.commands(trial.step).concat() {
-            let runs = trial::runs(self.recipe, &self.dir, &trial, test, hashes);
+            let runs = trial::runs(self.recipe, &self.dir, &trial, test);
             if runs.iter().all(|r| ended(&r.file, &r.job).is_some()) {
                 done.extend(runs);
             } else {

@@ -3,7 +3,7 @@
 use super::{Session, Tried, duration};
 use crate::error::{CalibrateError, Result};
 use crate::recipe::{Recipe, Step};
-use crate::trial::run::{Ended, Hashes};
+use crate::trial::run::Ended;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -14,9 +14,11 @@ const OTHER_UNITS: f64 = 100.0;
 
 /// What goes on between batches.
 pub(super) struct Work {
-    pub hashes: Hashes,
     /// Jobs to be run by others.
     pub open: Vec<PathBuf>,
+    /// Whether it was said that runs are made again, and what of them cannot be known.
+    pub outdated: bool,
+    pub unknown: bool,
     /// Failures after this time [s since 1970] count.
     pub since: u64,
     /// Runs of each step, at most.
@@ -52,7 +54,8 @@ impl Work {
     pub fn new(session: &Session, since: u64) -> Work {
         let runs = |(k, step): (usize, &Step)| step.trials * session.runs_of_trial(k);
         Work {
-            hashes: Hashes::default(),
+            outdated: false,
+            unknown: false,
             open: Vec::new(),
             since,
             steps: session.recipe.steps.iter().enumerate().map(runs).collect(),

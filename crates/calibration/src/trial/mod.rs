@@ -49,12 +49,12 @@ pub fn folder(dir: &Path, number: usize) -> PathBuf {
 }
 
 /// The runs of a trial for one test: one a seed. Tests with the same command share them.
-pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize, hashes: &mut run::Hashes) -> Vec<Run> {
+pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize) -> Vec<Run> {
     let (of, seeds) = (&recipe.tests[recipe.first_with_command_of(test)], recipe.settings.seeds);
     let count = if of.is_random() { seeds } else { 1 };
     let values: Vec<String> =
         recipe.parameters.iter().zip(&trial.z).map(|(p, z)| shown(p.value(*z))).collect();
-    let make = |k: u64, hashes: &mut run::Hashes| {
+    let make = |k: u64| {
         // Seeds of trials are different: equal ones would fit the parameters to one packing.
         let seed = recipe.settings.seed + (trial.number as u64 - 1) * seeds + k;
         let mut blanks: Vec<(&str, String)> =
@@ -65,11 +65,12 @@ pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize, hashes: &mu
         let movable = filled(&of.command, &blanks);
         let command = filled(&movable, &[("here", stream::quoted(&recipe.here.display().to_string()))]);
         let name = if of.is_random() { format!("{}-{seed}", slug(&of.name)) } else { slug(&of.name) };
-        let stamp = hashes.stamp(&movable, &command);
-        let job = Job { test: of.name.clone(), command, stamp, timeout: recipe.settings.timeout };
+        let stamp = run::stamp(&movable, &command);
+        let (timeout, here) = (recipe.settings.timeout, recipe.here.clone());
+        let job = Job { test: of.name.clone(), command, stamp, timeout, here };
         Run { test, file: folder(dir, trial.number).join(format!("{name}.job")), job }
     };
-    (0..count).map(|k| make(k, hashes)).collect()
+    (0..count).map(make).collect()
 }
 
 /// A name as part of a file name; different names stay different.

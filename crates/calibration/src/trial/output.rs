@@ -22,7 +22,7 @@ pub enum Outcome {
 /// The outcome of a run that has ended.
 pub fn outcome(run: &Run, test: &Test) -> Outcome {
     let Some(ended) = run::ended(&run.file, &run.job) else {
-        return Outcome::Failed("it has no result".to_owned());
+        return Outcome::Failed("it has no result, or files that it has read have changed since".to_owned());
     };
     let reason = || {
         let words = fs::read_to_string(run::folder(&run.file).join("stderr")).unwrap_or_default();
@@ -32,6 +32,9 @@ pub fn outcome(run: &Run, test: &Test) -> Outcome {
     match ended.exit {
         _ if ended.timed_out => {
             Outcome::Failed(format!("took longer than {} s", run.job.timeout.unwrap_or(0.0)))
+        }
+        _ if ended.signal().is_some() => {
+            Outcome::Failed(ended.signal().map_or(String::new(), |stop| stop.stopped.clone()))
         }
         0 => match curve(run, test) {
             Ok(curve) => Outcome::Done(curve),

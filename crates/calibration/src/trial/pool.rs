@@ -42,9 +42,11 @@ impl Pool<'_> {
             }
         };
         std::thread::scope(|threads| {
-            for _ in 0..self.jobs.min(runs.len()) {
-                threads.spawn(worker);
+            for _ in 1..self.jobs.min(runs.len()) {
+                // Where there is no memory for a thread, fewer do.
+                let _ = std::thread::Builder::new().spawn_scoped(threads, worker);
             }
+            worker();
         });
         match trouble.into_inner().unwrap_or(None) {
             Some(e) => Err(e),

@@ -3,12 +3,12 @@
 use crate::error::{CalibrateError, Result, file};
 use jobs::{Lock, here};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use stream::reads::{self, RECORD, Stop};
 
 /// How often a run that failed is tried, by one command after another.
 const TRIES: u32 = 3;
@@ -26,6 +26,9 @@ pub struct Job {
     pub stamp: String,
     /// Longest time [s].
     pub timeout: Option<f64>,
+    /// Folder of the recipe.
+    #[serde(default)]
+    pub here: PathBuf,
 }
 
 /// How a run ended, and its provenance.
@@ -49,12 +52,23 @@ pub struct Ended {
     pub version: String,
     /// Which try it was.
     pub attempt: u32,
+    /// Folder of the recipe then.
+    #[serde(default)]
+    pub here: PathBuf,
+    /// Programs of the command that were stopped.
+    #[serde(default)]
+    pub stops: Vec<Stop>,
 }
 
 impl Ended {
     /// Whether it would end so again: done, or stopped by a guard.
     pub fn is_final(&self) -> bool {
-        !self.timed_out && (self.exit == 0 || self.exit == STOPPED)
+        !self.timed_out && self.signal().is_none() && (self.exit == 0 || self.exit == STOPPED)
+    }
+
+    /// What a signal stopped, of its programs.
+    pub fn signal(&self) -> Option<&Stop> {
+        self.stops.iter().find(|stop| stop.signal)
     }
 }
 
@@ -63,11 +77,18 @@ pub fn folder(job_file: &Path) -> PathBuf {
     job_file.with_extension("")
 }
 
-/// How a run ended, if it is the run of this job.
+/// How a run ended, if it is the run of this job, and the files that it has read are what they were.
 pub fn ended(job_file: &Path, job: &Job) -> Option<Ended> {
     let text = fs::read_to_string(folder(job_file).join("result.json")).ok()?;
     let ended: Ended = serde_json::from_str(&text).ok()?;
-    (ended.stamp == job.stamp).then_some(ended)
+    let record = folder(job_file).join(RECORD);
+    let same = || reads::changed(&record, Some((&ended.here, &job.here))).is_empty();
+    (ended.stamp == job.stamp && same()).then_some(ended)
+}
+
+/// Whether a run has ended there that was made from other files, another command or another program.
+pub fn is_outdated(job_file: &Path, job: &Job) -> bool {
+    folder(job_file).join("result.json").exists() && ended(job_file, job).is_none()
 }
 
 /// Whether nothing is left to do; `since`: failures after this time [s since 1970] count.
@@ -110,6 +131,8 @@ pub fn execute(job_file: &Path, job: &Job, lock: &mut Lock, stop: fn() -> bool) 
         timed_out,
         seconds,
         by: here(),
+        here: job.here.clone(),
+        stops: reads::stops(&part.join(RECORD)),
         started,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         attempt,
@@ -126,11 +149,10 @@ pub fn execute(job_file: &Path, job: &Job, lock: &mut Lock, stop: fn() -> bool) 
 }
 
 fn start(part: &Path, job: &Job) -> Result<Child> {
-    let tools = std::env::current_exe().ok().and_then(|e| e.parent().map(Path::to_owned)).unwrap_or_default();
     let script = part.join("command.sh");
     let text = format!(
         "#!/usr/bin/env bash\nset -o pipefail\nPATH={}:\"$PATH\"\n{}\n",
-        stream::quoted(&tools.display().to_string()),
+        stream::quoted(&tools().display().to_string()),
         job.command
     );
     fs::write(&script, text).map_err(file(&script, "cannot write (is the disk full?)"))?;
@@ -138,8 +160,10 @@ fn start(part: &Path, job: &Job) -> Result<Child> {
         let path = part.join(name);
         File::create(&path).map_err(file(&path, "cannot write (is the disk full?)"))
     };
+    let record = std::path::absolute(part.join(RECORD)).map_err(file(part, "cannot be found"))?;
     Command::new("bash")
         .arg("command.sh")
+        .env(reads::VARIABLE, record)
         .current_dir(part)
         .stdin(Stdio::null())
         .stdout(create("stdout")?)
@@ -175,31 +199,21 @@ pub(super) fn kill_group(id: u32) {
     }
 }
 
-/// Hashes of the files that commands name: a run of another scene or program is another run.
-#[derive(Default)]
-pub struct Hashes(BTreeMap<PathBuf, Option<String>>);
-
-impl Hashes {
-    fn of(&mut self, path: &Path) -> Option<&str> {
-        let read = || fs::metadata(path).ok().filter(fs::Metadata::is_file).and_then(|_| fs::read(path).ok());
-        let entry =
-            self.0.entry(path.to_owned()).or_insert_with(|| read().map(|bytes| stream::sha256(&bytes)));
-        entry.as_deref()
+/// The stamp of a command: the line, and the files that it names; `movable` is the same line without the place of the recipe. A run of another scene or program
+/// is another run.
+pub fn stamp(movable: &str, command: &str) -> String {
+    let mut all = format!("{movable}\n");
+    let tools = tools();
+    for word in stream::words(command) {
+        let found = if word.contains('/') { Path::new(&word).to_owned() } else { tools.join(word) };
+        // Relative files belong to the folder of the run, which is new.
+        let hash = if found.is_absolute() && found.is_file() { reads::known(&found) } else { None };
+        all.extend(hash.map(|h| h + "\n"));
     }
+    stream::sha256(all.as_bytes())
+}
 
-    /// The stamp of a command; `movable` is the same without the place of the recipe.
-    pub fn stamp(&mut self, movable: &str, command: &str) -> String {
-        let mut all = format!("{movable}\n");
-        let tools =
-            std::env::current_exe().ok().and_then(|e| e.parent().map(Path::to_owned)).unwrap_or_default();
-        for word in
-            command.split(|c: char| c.is_whitespace() || "'\"=;|&<>()".contains(c)).filter(|w| !w.is_empty())
-        {
-            let found = if word.contains('/') { Path::new(word).to_owned() } else { tools.join(word) };
-            // Relative files belong to the folder of the run, which is new.
-            let hash = if found.is_absolute() { self.of(&found).map(str::to_owned) } else { None };
-            all.extend(hash.map(|h| h + "\n"));
-        }
-        stream::sha256(all.as_bytes())
-    }
+/// Folder of the programs.
+pub fn tools() -> PathBuf {
+    std::env::current_exe().ok().and_then(|e| e.parent().map(Path::to_owned)).unwrap_or_default()
 }

@@ -58,6 +58,13 @@ fn end(action: &str) -> anyhow::Result<()> {
         }
         "fail" => return Err(anyhow::anyhow!("point 7: x is NaN: drop it").context("scan.ply")),
         "panic" => panic!("on purpose"),
+        "hoard" => {
+            let mut all = Vec::new();
+            while all.len() < 64 {
+                all.push(vec![7u8; 64 << 20]);
+            }
+            return Err(anyhow::anyhow!("{} pieces were given", all.len()));
+        }
         "wait" => {
             std::io::stdin().read_to_end(&mut Vec::new())?;
         }

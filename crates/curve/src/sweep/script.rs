@@ -8,6 +8,7 @@ use super::grid::Setting;
 use crate::study::Work;
 use std::path::{Path, PathBuf};
 use stream::quoted;
+use stream::reads::{RECORD, VARIABLE};
 
 /// One run.
 #[derive(Debug, Clone)]
@@ -89,10 +90,12 @@ impl Job {
 
     /// The whole script; `tools` is the folder of the programs.
     pub fn script(&self, tools: &Path, here: &Path, work: Work, counter: Option<Counter>) -> String {
-        let (tools, here) = (quoted(&tools.display().to_string()), quoted(&here.display().to_string()));
-        let old = ["made", "run.mcap", "report.json", "input", "instructions", "cpu"]
+        let old = ["made", "run.mcap", "report.json", "input", "instructions", "cpu", RECORD]
             .map(|f| self.path(f))
             .join(" ");
+        // Absolute: the line before may change the folder.
+        let reads = quoted(&here.join(self.file(RECORD)).display().to_string());
+        let (tools, here) = (quoted(&tools.display().to_string()), quoted(&here.display().to_string()));
         let done = quoted(&format!("{} 0", self.stamp));
         let counted = match work {
             Work::Instructions => format!(" && [ -e {} ]", self.path("instructions")),
@@ -103,6 +106,7 @@ impl Job {
             format!("# cost-curve: {}", self.name),
             "set -o pipefail".to_owned(),
             format!("cd {here} && PATH={tools}:\"$PATH\" && export PATH || exit 1"),
+            format!("export {VARIABLE}={reads}"),
             format!("exec 9>> {}", self.path("lock")),
             "if command -v flock > /dev/null; then".to_owned(),
             format!("  if [ \"${{1-}}\" = {NOW} ]; then flock -n 9 || exit {BUSY}; else flock 9; fi"),

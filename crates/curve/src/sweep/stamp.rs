@@ -55,7 +55,8 @@ pub(super) fn stamp(job: &Job, text: &str, tools: &Path, hashes: &mut Hashes) ->
         all.push(hashes.of(Path::new(input))?);
     }
     let line = job.each.clone().unwrap_or_default();
-    all.push(hashes.of_words(line.split_whitespace(), &[Path::new(""), tools])?);
+    let named = stream::words(&line);
+    all.push(hashes.of_words(named.iter().map(String::as_str), &[Path::new(""), tools])?);
     all.extend([line, job.threads.clone()]);
     Ok(stream::sha256(all.join("\n").as_bytes()))
 }

@@ -37,6 +37,12 @@ fn left(job: &Job) -> Option<(String, String)> {
 fn finished(job: &Job) -> bool {
     let by_signal = || report(job).is_ok_and(|r| r["stopped"].as_str() == Some(record::SIGNAL));
     left(job).is_some_and(|(stamp, code)| stamp == job.stamp && (code == "0" || code == "3" && !by_signal()))
+        && !has_read_others(job)
+}
+
+/// Whether a file that a run has read is another one now.
+fn has_read_others(job: &Job) -> bool {
+    !stream::reads::changed(&job.file(stream::reads::RECORD), None).is_empty()
 }
 
 fn report(job: &Job) -> Result<Value, CurveError> {
@@ -63,11 +69,11 @@ pub fn counter(work: Work) -> Result<Option<Counter>, CurveError> {
         command.args(words).stdout(Stdio::null()).stderr(Stdio::null());
         command.status().is_ok_and(|s| s.success())
     };
-    let file = std::env::temp_dir().join(format!("cost-curve.{}", std::process::id()));
-    let out = file.display().to_string();
-    let counts = works("perf", &["stat", "-x,", "-e", "instructions:u", "-o", &out, "--", "true"])
-        && std::fs::read_to_string(&file).is_ok_and(|text| Counter::Perf.read(&text).is_some());
-    let _ = std::fs::remove_file(&file);
+    // To stderr: the name of a file that others can guess may be theirs.
+    let perf = Command::new("perf").args(["stat", "-x,", "-e", "instructions:u", "--", "true"]).output();
+    let counts = perf.is_ok_and(|done| {
+        done.status.success() && Counter::Perf.read(&String::from_utf8_lossy(&done.stderr)).is_some()
+    });
     match (counts, works("valgrind", &["--version"])) {
         (true, _) => Ok(Some(Counter::Perf)),
         (_, true) => Ok(Some(Counter::Valgrind)),
@@ -84,6 +90,8 @@ pub struct Open<'a> {
     pub jobs: Vec<&'a Job>,
     /// Runs that are made again.
     pub outdated: usize,
+    /// A program of the line before runs that are used again, which may read files that the line does not name.
+    pub unknown: Option<String>,
 }
 
 /// Writes the script of every run that is not finished; `tools` is the folder of the programs.
@@ -97,11 +105,17 @@ pub fn scripts<'a>(
     counter: Option<Counter>,
 ) -> Result<Open<'a>, CurveError> {
     let here = std::env::current_dir().map_err(CurveError::io("the current folder"))?;
-    let outdated = jobs.iter().filter(|job| left(job).is_some_and(|(stamp, _)| stamp != job.stamp)).count();
+    let is_other =
+        |job: &&Job| left(job).is_some_and(|(stamp, _)| stamp != job.stamp) || has_read_others(job);
+    let outdated = jobs.iter().filter(is_other).count();
     let open: Vec<&Job> = jobs.iter().filter(|job| !finished(job) || uncounted(job, work)).collect();
     for job in &open {
         let write = || {
             std::fs::create_dir_all(&job.folder)?;
+            if job.file("made").exists() && has_read_others(job) {
+                // Its stamp is the same: without this file the script makes it again.
+                std::fs::remove_file(job.file("made"))?;
+            }
             // Whole at once: another process may be running it.
             let new = job.file(&format!("run.sh.{}", std::process::id()));
             std::fs::write(&new, job.script(tools, &here, work, counter))?;
@@ -110,7 +124,10 @@ pub fn scripts<'a>(
         let what = format!("{}: cannot write there: choose another --dir", job.folder.display());
         write().map_err(CurveError::io(what))?;
     }
-    Ok(Open { jobs: open, outdated })
+    let known = |program: &str| tools.join(program).is_file();
+    let used = jobs.iter().filter(|job| finished(job));
+    let unknown = used.filter_map(|job| stream::reads_more(job.each.as_ref()?, known)).next();
+    Ok(Open { jobs: open, outdated, unknown })
 }
 
 /// Whether instructions are asked for that were not counted.
@@ -161,9 +178,11 @@ pub fn run(
         }
     };
     std::thread::scope(|threads| {
-        for _ in 0..at_once {
-            threads.spawn(one);
+        for _ in 1..at_once {
+            // Where there is no memory for a thread, fewer do.
+            let _ = std::thread::Builder::new().spawn_scoped(threads, one);
         }
+        one();
     });
     if let Ok(Some(trouble)) = trouble.into_inner() {
         return Err(trouble);

@@ -30,8 +30,9 @@ impl Visitor<'_> for Share {
     }
 
     fn visit_str<E: Error>(self, v: &str) -> Result<Accuracy, E> {
-        let share = v.trim().strip_suffix('%').and_then(|v| v.trim().parse::<f64>().ok());
-        share.map(|s| Accuracy(s / 100.0)).ok_or_else(|| E::invalid_value(Unexpected::Str(v), &self))
+        // Units keep the digits: 0.0000001 % is 1e-9, and its number over 100 is less.
+        let share = Some(v.trim()).filter(|v| v.ends_with('%')).and_then(|v| geom::units::parse(v, "").ok());
+        share.map(Accuracy).ok_or_else(|| E::invalid_value(Unexpected::Str(v), &self))
     }
 }
 

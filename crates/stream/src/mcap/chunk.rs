@@ -14,6 +14,7 @@ pub(super) enum ChunkError {
     Records,
     Compression,
     Unpack,
+    Memory,
     Large,
     Text,
 }
@@ -33,6 +34,7 @@ impl ChunkError {
             ChunkError::Records => "a record reaches over the end of its chunk",
             ChunkError::Compression => "a chunk has an unknown compression (known: none, zstd, lz4)",
             ChunkError::Unpack => "a chunk cannot be unpacked: bytes were changed",
+            ChunkError::Memory => "a chunk cannot be unpacked: out of memory",
             ChunkError::Large => "a chunk claims to unpack to more than 64 MiB and 64 times its own size",
             ChunkError::Text => "a text reaches over the end of its record",
         }
@@ -62,10 +64,19 @@ pub(super) fn unpack<'a>(header: &ChunkHeader, data: &'a [u8]) -> Result<Cow<'a,
 
 fn read(decoder: io::Result<impl Read>, header: &ChunkHeader) -> Result<Vec<u8>, ChunkError> {
     let mut records = Vec::new();
-    let decoder = decoder.map_err(|_| ChunkError::Unpack)?;
+    let decoder = decoder.map_err(|e| refused(&e))?;
     let limit = header.uncompressed_size.saturating_add(1);
-    decoder.take(limit).read_to_end(&mut records).map_err(|_| ChunkError::Unpack)?;
+    decoder.take(limit).read_to_end(&mut records).map_err(|e| refused(&e))?;
     Ok(records)
+}
+
+/// Why a decoder gives nothing. Those in C tell of too little memory by their words alone.
+fn refused(error: &io::Error) -> ChunkError {
+    let words = error.to_string().to_ascii_lowercase();
+    let memory = error.kind() == io::ErrorKind::OutOfMemory
+        || words.contains("alloc")
+        || words.contains("not enough memory");
+    if memory { ChunkError::Memory } else { ChunkError::Unpack }
 }
 
 /// Cuts the next record off: its opcode and its body.

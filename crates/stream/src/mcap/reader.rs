@@ -153,7 +153,11 @@ impl<R: Read> Reader<R> {
         else {
             return Ok(());
         };
-        let wrong = |w: chunk::ChunkError| self.malformed(w.text());
+        let wrong = |w: chunk::ChunkError| match w {
+            // Nothing is wrong with the file.
+            chunk::ChunkError::Memory => McapError::Io(io::Error::new(io::ErrorKind::OutOfMemory, w.text())),
+            w => self.malformed(w.text()),
+        };
         let records = chunk::unpack(&header, &data).map_err(wrong)?;
         let mut rest = &records[..];
         while !rest.is_empty() {

@@ -137,6 +137,7 @@ pub struct Page {
     one_point_of: usize,
     sizes: Sizes,
     diagrams: Vec<Diagram>,
+    notes: Vec<String>,
 }
 
 impl Page {
@@ -153,7 +154,13 @@ impl Page {
             one_point_of: 1,
             sizes: Sizes::default(),
             diagrams: Vec::new(),
+            notes: Vec::new(),
         }
+    }
+
+    /// Adds a sentence below the title that the reader must not miss, such as what stopped the run.
+    pub fn note(&mut self, text: String) {
+        self.notes.push(text);
     }
 
     /// Whether regions can be drawn on it.

@@ -150,6 +150,10 @@ impl Page {
             match slot {
                 "theme" if self.options.dark => out.write_all(b" data-theme=\"dark\"")?,
                 "title" => out.write_all(escaped(&self.options.title).as_bytes())?,
+                "notes" => {
+                    let note = |text: &String| format!("<p class=\"stop\">{}</p>", escaped(text));
+                    out.write_all(self.notes.iter().map(note).collect::<String>().as_bytes())?;
+                }
                 "regions" if self.options.pick.is_some() => out.write_all(REGION.as_bytes())?,
                 "style" => out.write_all(slim(STYLE).as_bytes())?,
                 "shaders" => out.write_all(shaders.as_bytes())?,

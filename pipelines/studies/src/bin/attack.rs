@@ -6,7 +6,7 @@ mod attack;
 #[path = "../../../../tests/tests/faults/samples.rs"]
 mod samples;
 
-use attack::{Findings, files, kills, options, scenes, silent};
+use attack::{Findings, files, kills, limits, options, scenes, silent};
 use std::{env, fs, io};
 
 /// A part of the attack, and its name.
@@ -24,10 +24,11 @@ fn main() -> io::Result<()> {
         return Ok(());
     }
     // What was found so far is printed after each part: the whole takes up to an hour.
-    let parts: [Part; 5] = [
+    let parts: [Part; 6] = [
         ("files", &|found| found.run(files::cases(seed as u64, drawn))),
         ("keys", &|found| found.run(scenes::cases())),
         ("options", &|found| found.run(options::cases())),
+        ("memory", &|found| found.run(limits::cases())),
         ("kills", &|found| kills::run(seed as u64, killed, found)),
         ("silent", &|found| silent::find(None, 1, &[], found)),
     ];
@@ -77,5 +78,5 @@ checksums. **Keys and options**: every key of the tables of [scene.md](scene.md)
 sequence. **Further options**: every example of every tool (`tests/tests/tools/every_option`), whole and with as few options as it needs, with each further option of that tool that an example has. It counts as
 accepted if the output or what the tool prints changes with one of its values. Left out are options that only steer how a tool runs (threads, names of outputs), those listed with a reason in
 `tests/tests/faults/attack/silent/options.rs`, and calls whose output holds times. **Further keys**: every key of every scene of the test of keys (`tests/tests/tools/every_key`), left out where the scene runs
-without it, and with the values that it has in other scenes, half and twice its numbers. What a run repeats of its scene is not compared. **Kills**: one program of a pipe gets SIGKILL at a random time. Output under the final name must then be the whole output.
+without it, and with the values that it has in other scenes, half and twice its numbers. What a run repeats of its scene is not compared. **Memory**: a call of every tool within each of 14 limits of address space, from less than a program needs to start. **Kills**: one program of a pipe gets SIGKILL at a random time. Output under the final name must then be the whole output.
 ";

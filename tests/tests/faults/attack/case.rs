@@ -32,6 +32,8 @@ pub struct Case {
     pub files: Vec<(String, Vec<u8>)>,
     /// What was done to them.
     pub change: String,
+    /// Address space that it may take [kB]; `None`: [`MEMORY`].
+    pub memory: Option<u32>,
 }
 
 /// What became of a case.
@@ -112,7 +114,8 @@ impl Case {
         let create = |name: &str| File::create(at(name)).expect("created");
         let mut command = Command::new("bash");
         // No core dumps: an abort would take longer to write one than to run. A hard limit of time would end it with the signal of too little memory.
-        let limits = format!("ulimit -c 0 -v {MEMORY}; ulimit -S -t {TIME}");
+        let memory = self.memory.unwrap_or(MEMORY);
+        let limits = format!("ulimit -c 0; ulimit -S -t {TIME}; ulimit -v {memory}");
         command.args(["-c", &format!("{limits}; exec \"$0\" \"$@\"")]);
         command.arg(program(self.tool)).args(&self.args).args(["--threads", "2"]);
         command.current_dir(folder.path()).stdin(Stdio::null());
@@ -163,6 +166,8 @@ fn judge(status: Option<ExitStatus>, stderr: &str, folder: &Path) -> Outcome {
             _ => Outcome::Accepted,
         },
         Some(1..=3) if stderr.trim().is_empty() => Outcome::Mute,
+        // The system cannot start a program in so little memory: its loader says so.
+        Some(126 | 127) if stderr.contains("cannot") => Outcome::Refused,
         // A guard stops a run with whole output.
         Some(1 | 2) if output.is_some() => Outcome::LeftOutput,
         Some(1..=3) => Outcome::Refused,

@@ -146,7 +146,7 @@ pub fn cases(seed: u64, count: usize) -> Vec<Case> {
         let mut files = folders::of(&examples, tool);
         files = if files.is_empty() { others.clone() } else { files };
         files.push((file, damaged));
-        Case { group, tool, args, files, change }
+        Case { group, tool, args, files, change, memory: None }
     };
     (0..count).map(one).collect()
 }

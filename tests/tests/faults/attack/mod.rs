@@ -1,4 +1,4 @@
-//! An attack on the tools as programs: damaged files, absurd values for every key and option, killed partners of a pipe.
+//! An attack on the tools as programs: damaged files, absurd values for every key and option, too little memory, killed partners of a pipe.
 //!
 //! Each case is one call with bounded memory and time ([`case`]). `make -C pipelines attack` runs tens of thousands of them and writes
 //! docs/reliability.md; the test runs a short form with another seed. A seed gives the same cases on every machine.
@@ -16,6 +16,7 @@ pub mod examples;
 pub mod files;
 pub mod folders;
 pub mod kills;
+pub mod limits;
 pub mod mutate;
 pub mod options;
 pub mod scenes;

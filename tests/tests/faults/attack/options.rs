@@ -7,7 +7,7 @@ use grainpipe_tests::tools::tool;
 use std::path::Path;
 
 /// A call of each tool that succeeds, to which options are added.
-const CALLS: &[(&str, &str)] = &[
+pub const CALLS: &[(&str, &str)] = &[
     ("cloud-crop", "ascii.ply -o out.ply"),
     ("cloud-fill", "ascii.ply -o out.ply"),
     ("bluenoise-sample", "ascii.ply --spacing 0.01 -o out.ply"),
@@ -47,6 +47,14 @@ pub fn flags(name: &str) -> Vec<Flag> {
     found
 }
 
+/// A file of a case: its name and bytes.
+type CaseFile = (String, Vec<u8>);
+
+/// The files of a call of a tool.
+pub fn files_of(tool: &str, shared: &[CaseFile], examples: &[CaseFile]) -> Vec<CaseFile> {
+    if CALLS.iter().any(|call| call.0 == tool) { shared.to_vec() } else { folders::of(examples, tool) }
+}
+
 /// All cases: tools × options × values.
 pub fn cases() -> Vec<Case> {
     let mut shared = files::others();
@@ -55,8 +63,7 @@ pub fn cases() -> Vec<Case> {
     let examples = folders::files();
     let mut cases = Vec::new();
     for (tool, call) in CALLS.iter().chain(folders::CALLS) {
-        let files =
-            if CALLS.iter().any(|c| c.0 == *tool) { shared.clone() } else { folders::of(&examples, tool) };
+        let files = files_of(tool, &shared, &examples);
         for Flag { name, takes_value } in flags(tool) {
             let values = if takes_value { values::OPTION.map(Some).to_vec() } else { vec![None] };
             for value in values {
@@ -72,6 +79,7 @@ pub fn cases() -> Vec<Case> {
                     args,
                     files: files.clone(),
                     change: String::new(),
+                    memory: None,
                 });
             }
         }

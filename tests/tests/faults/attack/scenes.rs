@@ -99,6 +99,7 @@ pub fn cases() -> Vec<Case> {
             args: args.into(),
             files: shared.clone(),
             change: String::new(),
+            memory: None,
         }
     };
     keys().iter().flat_map(|key| values::KEY.map(|value| one(key, value))).collect()
