@@ -29,6 +29,7 @@ pub mod periodic;
 pub mod plane_force;
 pub mod porosity;
 pub mod profile;
+pub mod radial;
 pub mod region;
 pub mod repose;
 pub mod residence;

@@ -38,6 +38,9 @@ pub struct Args {
     /// Velocity, solid fraction and size on a grid
     #[arg(long, group = "measure")]
     pub profile: bool,
+    /// A burden around AXIS (px,py,pz and up along it): height, mass and thickness of each material, in rings
+    #[arg(long, group = "measure", value_name = "AXIS", allow_hyphen_values = true)]
+    pub radial: Option<Plane>,
     /// How well two kinds of grains are mixed: Lacey's index, difference of the centres of mass
     #[arg(long, group = "measure")]
     pub segregation: bool,
@@ -121,16 +124,19 @@ pub struct Args {
     /// Up (default: against the scene's gravity, else z) [repose, segregation, bed-height, bed-slope]
     #[arg(long, value_name = "x,y,z", value_parser = vector, allow_hyphen_values = true, help_heading = "How")]
     pub up: Option<Vec3>,
-    /// Sectors around the axis, or lanes from the wall (default 8) [repose]
+    /// Sectors around the axis, or lanes from the wall (default 8) [repose]; sectors of the rings (default 1) [radial]
     #[arg(long, value_name = "N", help_heading = "How")]
     pub sectors: Option<usize>,
+    /// Radius of the outermost ring [m] (default: that of the farthest grain in the first frame) [radial]
+    #[arg(long, value_name = "M", help_heading = "How")]
+    pub outer: Option<f64>,
     /// Fractions of the heap's height, or of the bed's length, between which a line is fitted (default 0.2,0.8) [repose, bed-slope]
     #[arg(long, value_name = "LO,HI", value_parser = pair, help_heading = "How")]
     pub fractions: Option<[f64; 2]>,
     /// Width of the bins of the profile [m] (default: a mean diameter) [repose, bed-slope]
     #[arg(long, value_name = "M", value_parser = cli::length, help_heading = "How")]
     pub bin: Option<f64>,
-    /// Height of the ground [m] (default: that of the lowest grains) [repose, bed-height]
+    /// Height of the ground [m] (default: that of the lowest grains) [repose, bed-height, radial]
     #[arg(long, value_name = "M", value_parser = finite, allow_hyphen_values = true, help_heading = "How")]
     pub ground: Option<f64>,
     /// The heap leans on a wall at this side: x- x+ y- y+ z- z+ [repose]
@@ -145,7 +151,7 @@ pub struct Args {
     /// Axis of the bins: x, y or z (default z) [profile]
     #[arg(long, value_name = "AXIS", value_parser = axis, help_heading = "How")]
     pub axis: Option<usize>,
-    /// Number of bins along the axis (default 20), or along all three axes [profile]
+    /// Number of bins along the axis (default 20), or along all three axes [profile]; number of rings (default 20) [radial]
     #[arg(long, value_name = "N|NX,NY,NZ", value_parser = bins, help_heading = "How")]
     pub bins: Option<Bins>,
     /// Turn the axes of the grid by DEG degrees about x, y or z: y,30 tilts x down by 30° [profile]
@@ -207,12 +213,13 @@ pub enum Bins {
 impl Args {
     /// Refuses options of other measures than the one that is asked for.
     pub fn check(&self, measure: &str) -> anyhow::Result<()> {
-        let options: [(&str, bool, &[&str]); 19] = [
+        let options: [(&str, bool, &[&str]); 20] = [
             ("--up", self.up.is_some(), &["--repose", "--segregation", "--bed-height", "--bed-slope"]),
-            ("--sectors", self.sectors.is_some(), &["--repose"]),
+            ("--sectors", self.sectors.is_some(), &["--repose", "--radial"]),
+            ("--outer", self.outer.is_some(), &["--radial"]),
             ("--fractions", self.fractions.is_some(), &["--repose", "--bed-slope"]),
             ("--bin", self.bin.is_some(), &["--repose", "--bed-slope"]),
-            ("--ground", self.ground.is_some(), &["--repose", "--bed-height"]),
+            ("--ground", self.ground.is_some(), &["--repose", "--bed-height", "--radial"]),
             ("--side", self.side.is_some(), &["--repose"]),
             (
                 "--within",
@@ -221,7 +228,7 @@ impl Args {
             ),
             ("--span", self.span.is_some(), &["--flow"]),
             ("--axis", self.axis.is_some(), &["--profile"]),
-            ("--bins", self.bins.is_some(), &["--profile"]),
+            ("--bins", self.bins.is_some(), &["--profile", "--radial"]),
             ("--turn-deg", self.turn_deg.is_some(), &["--profile"]),
             ("--mean", self.mean, &["--profile"]),
             ("--field", !self.field.is_empty(), &["--profile"]),

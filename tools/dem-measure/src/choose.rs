@@ -4,7 +4,7 @@ use crate::args::{Args, Bins, GivenShape};
 use crate::around;
 use anyhow::{Context, anyhow};
 use cli::usage;
-use geom::{Vec3, shape::Solid};
+use geom::{Plane, Vec3, shape::Solid};
 use measure::bed::{BedHeight, BedSlope, SlopeOptions};
 use measure::bonds::{BondNumbers, CrackList, FragmentList, Grading};
 use measure::coordination::ContactNumbers;
@@ -16,6 +16,7 @@ use measure::impact::Impacts;
 use measure::plane_force::PlaneForce;
 use measure::porosity::Porosity;
 use measure::profile::{Profile, ProfileOptions};
+use measure::radial::{Radial, RadialOptions};
 use measure::region::Region;
 use measure::repose::{HeapOptions, Repose};
 use measure::residence::Residence;
@@ -97,6 +98,9 @@ pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)
         (Args { bed_slope: Some(side), .. }, _) => {
             Box::new(PerFrame::new(BedSlope::new(slope(args, *side)).context(name)?, series).without_fallen())
         }
+        (Args { radial: Some(axis), .. }, _) => {
+            Box::new(PerFrame::new(Radial::new(radial(args, *axis)?).context(name)?, single).without_fallen())
+        }
         (_, "--bed-height") => {
             let within = args.within.as_ref().map(|g| g.shape.clone());
             let height = BedHeight::new(args.up, args.ground);
@@ -113,6 +117,7 @@ fn name(args: &Args) -> &'static str {
         ("--repose", args.repose),
         ("--flow", args.flow.is_some()),
         ("--profile", args.profile),
+        ("--radial", args.radial.is_some()),
         ("--segregation", args.segregation),
         ("--energy", args.energy),
         ("--settling", args.settling),
@@ -170,6 +175,20 @@ fn heap(args: &Args) -> HeapOptions {
 fn slope(args: &Args, side: Vec3) -> SlopeOptions {
     let fractions = args.fractions.unwrap_or(HeapOptions::default().fractions);
     SlopeOptions { side, up: args.up, fractions, bin: args.bin }
+}
+
+fn radial(args: &Args, axis: Plane) -> anyhow::Result<RadialOptions> {
+    let rings = match args.bins.unwrap_or(Bins::One(20)) {
+        Bins::One(rings) => rings,
+        Bins::All(_) => return Err(usage("--bins: --radial has rings only: give one number")),
+    };
+    Ok(RadialOptions {
+        axis,
+        rings,
+        sectors: args.sectors.unwrap_or(1),
+        outer: args.outer,
+        ground: args.ground,
+    })
 }
 
 fn grid(args: &Args) -> anyhow::Result<ProfileOptions> {

@@ -85,6 +85,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-measure run.mcap --impact",
     "dem-measure run.mcap --track 0,1",
     "dem-measure run.mcap --bed-height",
+    "dem-measure run.mcap --radial 0,0,0,0,0,1 --bins 5 --sectors 2 --outer 0.05 --ground 0 --plot radial.svg",
     "dem-measure run.mcap --bed-slope x+ --fractions 0.1,0.9 --bin 0.01",
     "dem-view run.mcap --colour speed --max-mb 20 --components --title run --time 0.02 -o v.html --report r.json --threads 2 -q",
     "dem-view bonded.mcap --bonds --colour broken --size 240x180 -o v6.png",
