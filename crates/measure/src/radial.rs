@@ -116,7 +116,7 @@ impl OfFrame for Radial {
             self.materials = (0..counted as u16).map(named).collect();
         }
         if self.outer == 0.0 {
-            let far = frame.position.iter().map(|p| across(p)).map(|[a, b]| a.hypot(b)).fold(0.0, f64::max);
+            let far = frame.position.iter().map(across).map(|[a, b]| a.hypot(b)).fold(0.0, f64::max);
             self.outer = far.max(frame.mean_diameter()) * (1.0 + 1e-12);
         }
         let mut parts = vec![Part::default(); rings * sectors];
