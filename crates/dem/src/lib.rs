@@ -76,7 +76,7 @@ pub use model::start::time_step;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use model::{
     Allowed, BondedParticle, BreakMode, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair,
-    CriticalPartner, Halt, Limit, OutOfRange, Partner, Pull, Quantity, RepeatedMotion, SetupError,
+    CriticalPartner, Entrance, Halt, Limit, OutOfRange, Partner, Pull, Quantity, RepeatedMotion, SetupError,
     StateMismatch, StepCause, Stiffer, Subject,
 };
 #[cfg(not(target_arch = "nvptx64"))]

@@ -94,7 +94,18 @@ impl Lab {
         };
         let loadings =
             paths.iter().flat_map(|path| seeds.iter().map(move |seed| loading(path, *seed))).collect();
-        Ok(Lab { recipe, sample, request, specimen, loadings })
+        let lab = Lab { recipe, sample, request, specimen, loadings };
+        for loading in &lab.loadings {
+            // At once what can be known before the preparation, which changes height and time step by little.
+            let test = recipe.test(&lab.context(loading), &Prepared::default())?;
+            lab.refuse_short(&test, lab.sample.grains.step)?;
+        }
+        Ok(lab)
+    }
+
+    /// Refuses a test in which a row has less than a time step [s]; bonds have a step of their own.
+    fn refuse_short(&self, test: &Part, step: f64) -> Result<()> {
+        if self.sample.has("bond") { Ok(()) } else { self.request.refuse_short(test.until, step) }
     }
 
     /// The test.
@@ -234,12 +245,13 @@ impl Lab {
 
     fn tested(&self, loading: &Loading, chain: &Chain) -> Result<Outcome> {
         let of = self.context(loading);
-        let (mut warnings, mut prepared) = (Vec::new(), Prepared::default());
+        let (mut warnings, mut prepared, mut step) = (Vec::new(), Prepared::default(), 0.0);
         let preparation = self.recipe.preparation(&of)?;
         if let Some(part) = &preparation {
             let scene = self.compose_preparation(&of, part, self.sample.compose_in(&chain.place.folder));
             let report = self.simulate("prepare", &scene, part, chain)?;
             warnings.extend(not_at_rest(&report));
+            step = report["dt"].as_f64().unwrap_or(0.0);
             warnings.extend(self.moves(loading, chain)?);
             warnings.extend(self.broke(part, chain)?);
             for wall in self.recipe.placed() {
@@ -256,6 +268,7 @@ impl Lab {
             }
         }
         let part = self.recipe.test(&of, &prepared)?;
+        self.refuse_short(&part, step)?;
         let scene =
             self.compose_test(&of, &part, preparation.is_some(), self.sample.compose_in(&chain.place.folder));
         let report = self.simulate("test", &scene, &part, chain)?;
@@ -325,7 +338,7 @@ fn check_repeats(kind: Stresses, all: &[f64]) -> Result<()> {
 /// # Errors
 /// A system that does not tell.
 pub fn beside_this_program() -> Result<PathBuf> {
-    let file = std::env::current_exe()
-        .map_err(LabError::file("lab-test", "cannot find out where this program is"))?;
+    let file = std::env::current_exe();
+    let file = file.map_err(LabError::file("lab-test", "cannot find out where this program is"))?;
     Ok(file.parent().unwrap_or(Path::new(".")).to_owned())
 }

@@ -42,6 +42,8 @@ pub(crate) const SLOW: f64 = 1e-3;
 const BAND: f64 = 10.0;
 /// Way of a plate in one time step over the grain diameter, where no stress sets the rate [–].
 const WAY: f64 = 4e-5;
+/// Time between two rows over a time step, at least: the step of the test differs a little from that of its grains alone [–].
+const ROOM: f64 = 1.05;
 /// Passes of a wave through a specimen of bonded grains while it is loaded up to its strength.
 const PASSES: f64 = 20.0;
 
@@ -152,6 +154,19 @@ fn lengths(size: &[f64], [x, y, z]: [f64; 3]) -> Result<[f64; 3]> {
 }
 
 impl Request {
+    /// Refuses a test that ends after `until` [s], before each of its rows has had a time step [s].
+    pub(crate) fn refuse_short(&self, until: f64, step: f64) -> Result<()> {
+        let rows = self.rows;
+        if until >= ROOM * rows as f64 * step {
+            return Ok(());
+        }
+        let (until, step) = (geom::Shown(until), geom::Shown(step));
+        Err(LabError::Usage(format!(
+            "the test would end after {until} s, and {rows} rows of it need as many time steps of {step} s: test more slowly (--inertial, --speed), farther \
+             (--strain), or with fewer --rows"
+        )))
+    }
+
     /// Strain rate [1/s] at an inertial number I = ε̇ d √(ρ/p).
     pub(crate) fn rate(&self, grains: &Grains, pressure: f64) -> f64 {
         self.inertial.unwrap_or(SLOW) / grains.diameter * (pressure / grains.density).sqrt()

@@ -16,9 +16,8 @@ use dem::device::Device;
 use dem::setup::Crossing;
 use dem::{Halt, Simulation};
 use record::{LogMessage, SIGNAL, json, nanoseconds, topic};
-use scene::advice::explain_halt;
 use scene::keys::Output;
-use scene::{Below, Plan, Scene, SceneError};
+use scene::{Below, Plan, Scene};
 use serde::Serialize;
 use stages::inlet::Arrival;
 use stages::outlet::path::PathRow;
@@ -37,6 +36,9 @@ const AT_ONCE: u64 = 1 << 16;
 pub struct Outcome {
     /// Why the run was stopped: the message of a guard, or [`SIGNAL`].
     pub stopped: Option<String>,
+    /// The guard that has stopped it.
+    #[serde(skip)]
+    pub halt: Option<Halt>,
     /// Why the run ended before its last step: the grains have come to rest.
     pub settled: Option<String>,
     /// Time reached [s].
@@ -205,7 +207,7 @@ pub fn run<W: Write>(
         let step = run.sim.steps();
         run.sample()?;
         match run.settle(step).and_then(|()| run.write_due(step)) {
-            Err(Ended::Guard(halt)) => break Some(guard(scene, halt)?),
+            Err(Ended::Guard(halt)) => break Some(run.halted(scene, halt)?),
             Err(Ended::Failed(error)) => return Err(error),
             Ok(()) => {}
         }
@@ -229,21 +231,10 @@ pub fn run<W: Write>(
             other => other?,
         }
         if let Err(halt) = run.step(step, stop, report) {
-            break Some(guard(scene, halt)?);
+            break Some(run.halted(scene, halt)?);
         }
     };
     run.finish(reason)
-}
-
-/// The message of a guard. What overlaps before the first step is an error of the scene, not of the calculation.
-pub(crate) fn guard(scene: &Scene, halt: Halt) -> Result<String, SceneError> {
-    match halt {
-        Halt::Overlap { time, id, partner, overlap, .. } if time <= 0.0 => {
-            let (name, partner) = (scene.text.name.clone(), partner.to_string());
-            Err(SceneError::Inside { name, id, partner, overlap })
-        }
-        other => Ok(explain_halt(&other)),
-    }
 }
 
 impl<W: Write> Run<W> {

@@ -3,12 +3,33 @@
 use crate::checkpoint::{Checkpoint, Pieces};
 use crate::error::Result;
 use crate::simulate::{Before, Run, Written};
+use dem::Halt;
 use record::{LogMessage, nanoseconds};
+use scene::advice::explain_halt;
+use scene::{Scene, SceneError};
 use serde::Serialize;
 use std::io::Write;
 use stream::mcap::Writer;
 
+/// The message of a guard. What overlaps before the first step is an error of the scene, not of the calculation.
+pub(crate) fn guard(scene: &Scene, halt: &Halt) -> Result<String, SceneError> {
+    match halt {
+        Halt::Overlap { time, id, partner, overlap, .. } if *time <= 0.0 => {
+            let (name, partner) = (scene.text.name.clone(), partner.to_string());
+            Err(SceneError::Inside { name, id: *id, partner, overlap: *overlap })
+        }
+        other => Ok(explain_halt(other)),
+    }
+}
+
 impl<W: Write> Run<W> {
+    /// The message of a guard, which the outcome keeps.
+    pub(crate) fn halted(&mut self, scene: &Scene, halt: Halt) -> Result<String, SceneError> {
+        let text = guard(scene, &halt)?;
+        self.outcome.halt = Some(halt);
+        Ok(text)
+    }
+
     pub(crate) fn write_checkpoint(&mut self) -> Result<()> {
         let (time, given) = (self.sim.time(), self.supply.given.clone());
         save(&mut self.writer, time, &self.written, given, self.sim.checkpoint())?;

@@ -70,13 +70,14 @@ fn a_trial_is_made_again_when_a_file_that_its_scene_names_has_changed() {
 /// The line before each run reads a file from stdin, which no word of it names as an argument.
 #[test]
 fn a_point_is_made_again_when_the_file_behind_its_line_has_changed() {
-    let folder = folder(&[("s.toml", SCENE.replace("0.002", "0.0005"))]);
+    let folder = folder(&[("s.toml", SCENE)]);
     let path = folder.path();
     grains(path, 2.0);
     fs::write(path.join("my scan.xyz"), "0 0 -1\n0.1 0 -1\n0 0.1 -1\n0.1 0.1 -1\n").unwrap();
     let sweep = |each: &str| {
         let call = format!(
-            "cost-curve s.toml --vary safety=0.2,0.4 --set time.dt='\"auto\"' --measure bed-height --work steps --dir points --report r.json -q --each '{each}'"
+            "cost-curve s.toml --vary safety=0.2,0.4 --reference safety=0.2 --in-use safety=0.4 --set time.dt='\"auto\"' --set output.every=0.02 \
+             --set time.until=0.04 --phases 1 --measure bed-height --work steps --dir points --report r.json -q --each '{each}'"
         );
         let done = line(path, &call);
         assert_eq!(done.code, 0, "{}", done.stderr);

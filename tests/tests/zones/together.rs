@@ -109,6 +109,7 @@ fn an_entry_on_top_of_a_free_grain_stops_the_run() {
     let mut setup = empty(HOOKE, 0.5);
     setup.step = Step::Fixed(1e-4);
     setup.inlets = vec![zone(0.0, 0.03)];
+    setup.guards.cuts = 1;
     (setup.smallest_entry, setup.largest_entry, setup.entry_materials) = (0.01, 0.01, vec![0]);
     setup.particles = vec![grain(1, Vec3::new(-0.02, 0.0, 0.0))];
     let mut sim = Simulation::new(setup).expect("sound");

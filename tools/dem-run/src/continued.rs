@@ -1,9 +1,12 @@
 //! The command that continues a stopped run, as it can be typed.
 
 use cli::Output;
-use scene::Scene;
+use dem::Halt;
 use std::path::{Path, PathBuf};
 use stream::quoted;
+
+/// With it the new output holds the whole run, so that one file can be measured and drawn.
+const WHOLE: &str = "--whole";
 
 /// The call of this program again, from its checkpoint in `file`: the same options, a new output.
 pub fn command(file: &Path, more: &[String]) -> String {
@@ -11,6 +14,9 @@ pub fn command(file: &Path, more: &[String]) -> String {
     let given = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
     words.extend(without_keys(kept(given), more));
     words.extend_from_slice(more);
+    if !words.iter().any(|word| word == WHOLE) {
+        words.push(WHOLE.to_owned());
+    }
     words.extend(["--resume".to_owned(), file.display().to_string()]);
     words.extend(["-o".to_owned(), next(file).display().to_string()]);
     words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
@@ -29,26 +35,38 @@ pub fn file(output: &Output) -> Option<PathBuf> {
     output.path().map(Path::to_owned).or_else(stdout)
 }
 
-/// What makes a guard that has tripped wider, as options.
-pub fn wider(scene: &Scene, reason: &str) -> Vec<String> {
-    let guards = &scene.keys.guards;
-    let twice = |name: &str, limit: f64| format!("guards.{name}={}", 2.0 * limit);
-    let standard = dem::setup::Guards::default();
-    let set = match reason.rsplit_once("guards.").map_or("", |(_, rest)| rest) {
-        rest if rest.starts_with("overlap") => match guards.overlap.unwrap_or(standard.overlap) {
-            // More than a radius is refused.
-            limit if limit >= 1.0 => return Vec::new(),
-            limit => format!("guards.overlap={}", (2.0 * limit).min(1.0)),
-        },
-        rest if rest.starts_with("motion") => twice("motion", guards.motion.unwrap_or(standard.motion)),
-        rest if rest.starts_with("zones") => "guards.zones=false".to_owned(),
-        rest if rest.starts_with("energy") => match scene.keys.energy_limit() {
-            Some(limit) => twice("energy", limit),
-            None => return Vec::new(),
-        },
-        _ => return Vec::new(),
+/// Largest share that a guard of overlap or motion may have [–].
+const WIDEST: f64 = 1.0;
+/// How much wider than what was found a guard is made, so that the run does not stop again at once [–].
+const ROOM: f64 = 1.2;
+
+/// A limit that is twice as wide, and wider than what was found [–]: two digits, rounded up.
+fn above(limit: f64, found: f64) -> f64 {
+    let wide = (2.0 * limit).max(ROOM * found);
+    let unit = 10f64.powf(wide.log10().floor() - 1.0);
+    format!("{:.1e}", (wide / unit).ceil() * unit).parse().unwrap_or(wide)
+}
+
+/// What makes a guard that has tripped wider, as options; none where no width that is allowed would do.
+pub fn wider(halt: &Halt) -> Vec<String> {
+    let share = |name: &str, share: f64, limit: f64| {
+        let wide = above(limit, share).min(WIDEST);
+        (wide > share && wide > limit).then(|| format!("guards.{name}={wide}"))
     };
-    vec!["--set".to_owned(), set]
+    let set = match halt {
+        Halt::Overlap { share: found, limit, .. } | Halt::InletOverlap { share: found, limit, .. } => {
+            share("overlap", *found, *limit)
+        }
+        Halt::Motion { share: found, limit, .. } | Halt::TooFast { share: found, limit, .. } => {
+            share("motion", *found, *limit)
+        }
+        Halt::CameBack { .. } => Some("guards.zones=false".to_owned()),
+        Halt::Energy { made, of, limit, .. } if *of > 0.0 => {
+            Some(format!("guards.energy={}", above(*limit, made / of))).filter(|_| made.is_finite())
+        }
+        _ => None,
+    };
+    set.map_or(Vec::new(), |set| vec!["--set".to_owned(), set])
 }
 
 /// The words of a command line without its output and without what it resumed.
@@ -121,6 +139,25 @@ mod tests {
         ] {
             assert_eq!(kept(words(line)), words(left));
         }
+    }
+
+    /// A guard is made wide enough for what was found, or nothing is proposed.
+    #[test]
+    fn a_wider_guard_is_wider_than_what_was_found() {
+        let motion = |share, limit| {
+            let position = geom::Vec3::zeros();
+            wider(&Halt::Motion { time: 1.0, id: 1, position, motion: 0.1, share, limit }).concat()
+        };
+        assert_eq!(motion(0.26, 0.25), "--setguards.motion=0.5");
+        assert_eq!(motion(0.6, 0.25), "--setguards.motion=0.72");
+        assert_eq!(motion(0.9, 0.25), "--setguards.motion=1");
+        assert_eq!(motion(1.54, 0.25), "");
+        assert_eq!(motion(f64::NAN, 0.25), "");
+        let energy = |made, of| wider(&Halt::Energy { time: 1.0, made, of, limit: 0.02 }).concat();
+        assert_eq!(
+            (energy(0.3, 1.0), energy(0.3, 0.0)),
+            ("--setguards.energy=0.36".to_owned(), String::new())
+        );
     }
 
     #[test]

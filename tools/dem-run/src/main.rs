@@ -278,9 +278,11 @@ fn simulate(
     let outcome = done.map_err(|e| parts::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
     warn(&outcome);
     let report = Report::new(summary(&outcome, ledger)).with_all(&outcome);
+    let report = report.with("until", scene.keys.time.until);
     match outcome.stopped {
         Some(reason) => {
-            Err(Stopped::error(stopped(&args.output, scene, &reason, outcome.time), Some(report)))
+            let wider = outcome.halt.as_ref().map_or(Vec::new(), continued::wider);
+            Err(Stopped::error(stopped(&args.output, scene, (&reason, &wider), outcome.time), Some(report)))
         }
         None => Ok(report),
     }
@@ -320,25 +322,28 @@ fn summary(outcome: &Outcome, ledger: bool) -> String {
 const UNMEASURED: &str = ", integration error not measured (output.energy = true measures it)";
 
 /// Why a run stopped, and how to continue it.
-fn stopped(output: &Output, scene: &Scene, reason: &str, time: f64) -> String {
+fn stopped(output: &Output, scene: &Scene, (reason, wider): (&str, &[String]), time: f64) -> String {
     let file = continued::file(output);
+    let of = scene.keys.time.until.map_or(String::new(), |until| format!(" of {} s", geom::Shown(until)));
+    let reached = format!("t = {} s{of}", geom::Shown(time));
     if reason.contains(DEVICE_FAILED) {
         let on = file.map(|file| continued::sentence(&file, &[]));
         return format!(
-            "stopped: {reason}{}",
+            "stopped at {reached}: {reason}{}",
             on.map_or(String::new(), |on| format!("; {on}, without --device"))
         );
     }
     if reason != SIGNAL {
-        let wider = continued::wider(scene, reason);
-        let past = file.filter(|_| !wider.is_empty()).map(|file| continued::sentence(&file, &wider));
+        let past = file.filter(|_| !wider.is_empty()).map(|file| continued::sentence(&file, wider));
         let past = past.map_or(String::new(), |past| format!("; to go past the guard, {past}"));
-        return format!("stopped by a guard: {reason}{past}");
+        // The message of a guard begins with its time, too.
+        let why = reason.strip_prefix("t = ").and_then(|rest| rest.split_once(" s: "));
+        let why = why.map_or(reason, |(_, why)| why);
+        return format!("stopped by a guard at {reached}: {why}{past}");
     }
-    let time = geom::Shown(time);
     let how = file
         .map_or("continue with --resume FILE, the file that holds this output".to_owned(), |file| {
             continued::sentence(&file, &[])
         });
-    format!("stopped {reason} at t = {time} s; {how}")
+    format!("stopped by a signal at {reached}; {how}")
 }

@@ -273,4 +273,7 @@ pub enum StateMismatch {
     /// The number of wrenches.
     #[error("another number of wrenches")]
     Wrenches,
+    /// A part with a length, an index or a number that no run writes.
+    #[error("its {0} are not what a run writes: it was changed")]
+    Content(&'static str),
 }

@@ -1,6 +1,6 @@
 //! Why a run stops: each reason has its numbers as fields, and says what happened; what to do about it is up to the caller.
 
-use crate::model::{BondedParticle, SetupError};
+use crate::model::{BondedParticle, Entrance, SetupError};
 use geom::Vec3;
 use std::fmt::{Display, Formatter};
 use thiserror::Error;
@@ -33,7 +33,7 @@ pub enum Halt {
     },
     /// A particle comes in on top of another.
     #[error(
-        "t = {time:.6e} s: particle {id} comes in by inlet {inlet} at {} on top of {partner}: they overlap by \
+        "t = {time:.6e} s: particle {id} comes in by {by} at {} on top of {partner}: they overlap by \
          {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %)",
         shown(position), 100.0 * share, 100.0 * limit
     )]
@@ -42,8 +42,8 @@ pub enum Halt {
         time: f64,
         /// Which particle.
         id: u32,
-        /// Its inlet.
-        inlet: u32,
+        /// What it comes in by.
+        by: Entrance,
         /// What it overlaps.
         partner: Partner,
         /// Where [m].
@@ -189,7 +189,7 @@ pub enum Halt {
     },
     /// A particle that is to come in is too fast for the time step.
     #[error(
-        "t = {time:.6e} s: particle {id} comes in by inlet {inlet} at {speed:.4e} m/s, {:.1} % of its radius in one step of {dt:.3e} s \
+        "t = {time:.6e} s: particle {id} comes in by {by} at {speed:.4e} m/s, {:.1} % of its radius in one step of {dt:.3e} s \
          (limit {:.1} %)",
         100.0 * share, 100.0 * limit
     )]
@@ -198,8 +198,8 @@ pub enum Halt {
         time: f64,
         /// Which particle.
         id: u32,
-        /// Its inlet.
-        inlet: u32,
+        /// What it comes in by.
+        by: Entrance,
         /// How fast [m/s].
         speed: f64,
         /// Time step [s].

@@ -1,6 +1,6 @@
 //! What tripped a guard: which particle, where, by how much.
 
-use crate::model::{Halt, Model, Partner, Stiffer, With};
+use crate::model::{Entrance, Halt, Model, Partner, Stiffer, With};
 use crate::neighbours::{NeighbourLists, Segment};
 use crate::observe::snapshot::energy;
 use crate::observe::stiffen::{DeepContact, stiffer};
@@ -46,7 +46,8 @@ pub fn check_overlap(
                 let (id, position) = (state.particles.id[one], position(one));
                 let halt = match state.zones.entering_by(one) {
                     Some(inlet) => {
-                        Halt::InletOverlap { time, id, inlet, partner, position, overlap, share, limit }
+                        let by = Entrance::of(inlet, model.setup.guards.cuts);
+                        Halt::InletOverlap { time, id, by, partner, position, overlap, share, limit }
                     }
                     None => {
                         let stiffer = bearing(model, state, lists, (segment, at), overlap);

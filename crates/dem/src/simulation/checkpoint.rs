@@ -58,7 +58,8 @@ impl Checkpoint<'_> {
         differs(bonded, StateMismatch::Bonds)?;
         differs(begun.servos.len() != servos.len(), StateMismatch::Servos)?;
         differs(begun.strained.is_some() != strained.is_some(), StateMismatch::Strain)?;
-        differs(begun.mounts.len() != mounts.len(), StateMismatch::Mounts)
+        differs(begun.mounts.len() != mounts.len(), StateMismatch::Mounts)?;
+        self.state.check(begun, setup).map_err(SetupError::OtherState)
     }
 }
 

@@ -16,6 +16,7 @@ pub mod path;
 pub mod returned;
 pub mod servo;
 pub mod sleepers;
+pub mod validity;
 pub mod zone_particle;
 pub mod zones;
 

@@ -1,6 +1,6 @@
 //! Particles that go back through a plane, against the flow: what is there is not simulated by this stage.
 
-use crate::model::Halt;
+use crate::model::{Entrance, Halt};
 use crate::setup::Setup;
 use crate::state::particles::select;
 use crate::state::{Direction, Zones};
@@ -99,7 +99,8 @@ impl Zones {
             let speed = t.flow(time, self, setup).velocity.norm();
             let share = speed * dt / t.start.radius;
             if !(share <= limit) {
-                return Err(Halt::TooFast { time, id: t.start.id, inlet, speed, dt, share, limit });
+                let by = Entrance::of(inlet, setup.guards.cuts);
+                return Err(Halt::TooFast { time, id: t.start.id, by, speed, dt, share, limit });
             }
         }
         Ok(())

@@ -142,6 +142,8 @@ impl Zones {
         if self.none() {
             return;
         }
+        // A row that is gone has none; only a checkpoint that was changed has both.
+        self.zone_particles.retain(|t| new[t.at as usize] != u32::MAX);
         for t in &mut self.zone_particles {
             t.at = new[t.at as usize];
         }

@@ -10,7 +10,7 @@ mod text;
 
 use crate::error::Result;
 use crate::schedule::Schedule;
-use crate::simulate::guard;
+use crate::stop::guard;
 pub use calibration::Calibration;
 use dem::setup::{Guards, Setup, Wall, WallShape};
 use dem::{ContactBytes, MatchedDamping, Simulation, critical_step};
@@ -140,7 +140,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
     whole.particles = placed;
     let mut sim = Simulation::new(whole)?;
     if let Err(halt) = sim.ready() {
-        guard(scene, halt)?;
+        guard(scene, &halt)?;
     }
     let Schedule { dt, last, .. } = Schedule::new(scene, sim.dt())?;
     streams.iter_mut().try_for_each(|stream| stream.check(dt * last as f64))?;

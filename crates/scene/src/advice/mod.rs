@@ -8,7 +8,7 @@ mod tests;
 
 pub use setup::{explain_setup_error, explain_step_cause};
 
-use dem::{Halt, SetupError, Stiffer};
+use dem::{Entrance, Halt, SetupError, Stiffer};
 use thiserror::Error;
 
 /// A scene whose setup the engine refuses; its message is that of [`explain_setup_error`].
@@ -26,8 +26,17 @@ impl From<SetupError> for SceneSetupError {
 pub const DEVICE_FAILED: &str = "the device has failed";
 
 /// What else helps grains that overlap too far.
-const SOFTER: &str =
-    "let grains meet more slowly (a lower drop or speed of insertion), shorten dt, or raise guards.overlap";
+const SOFTER: &str = "let grains meet more slowly (a lower drop or speed of insertion)";
+
+/// A list of remedies, and where it helps the wider guard: a limit above the smaller radius is refused.
+fn or_wider(remedies: &[&str], share: f64) -> String {
+    let wider = (share < 1.0).then_some("raise guards.overlap");
+    let all: Vec<&str> = remedies.iter().copied().chain(wider).collect();
+    match all.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{}, or {last}", rest.join(", ")),
+        _ => all.concat(),
+    }
+}
 
 /// What a contact must be made of to bear what it met.
 pub(crate) fn of_stiffness(stiffer: Option<&Stiffer>) -> String {
@@ -39,12 +48,29 @@ pub(crate) fn of_stiffness(stiffer: Option<&Stiffer>) -> String {
 /// Why a run was stopped, and what to change in the scene or in the stages of a plant.
 pub fn explain_halt(halt: &Halt) -> String {
     let advice = match halt {
-        Halt::Overlap { stiffer, .. } => {
-            return format!("{halt}: stiffen the material{}, {SOFTER}", of_stiffness(stiffer.as_deref()));
+        Halt::Overlap { stiffer, share, .. } => {
+            let stiffen = format!("stiffen the material{}", of_stiffness(stiffer.as_deref()));
+            return format!("{halt}: {}", or_wider(&[&stiffen, SOFTER, "shorten dt"], *share));
         }
-        Halt::InletOverlap { .. } => {
-            "let grains come in along the paths that they took (motion = \"recorded\" in both stages), cut 3 to 4 grain diameters farther down where \
-             the stream is free, keep its zone free at the start, let slow grains start farther back (stage-replay --ahead), set guards.zones = \"remove\" where the other grain is one that came back, or raise guards.overlap"
+        Halt::InletOverlap { by: Entrance::Inlet(_), share, .. } => {
+            let remedies = [
+                "let grains come in along the paths that they took (motion = \"recorded\" in both stages)",
+                "keep its zone free at the start",
+                "let slow grains start farther back (stage-replay --ahead)",
+                "cut where nothing piles up to the plane, 3 to 4 grain diameters below a mouth",
+                "set guards.zones = \"remove\" where the other grain is one that came back",
+            ];
+            return format!("{halt}: {}", or_wider(&remedies, *share));
+        }
+        Halt::InletOverlap { by: Entrance::Insert(k), share, .. } => {
+            let remedies = [
+                format!("move insert.{k}.shape to where nothing lies or piles up"),
+                format!("end it before (insert.{k}.until)"),
+                format!("lower insert.{k}.rate"),
+                format!("raise insert.{k}.velocity, so that grains leave the shape sooner"),
+            ];
+            let remedies: Vec<&str> = remedies.iter().map(String::as_str).collect();
+            return format!("{halt}: {}", or_wider(&remedies, *share));
         }
         Halt::Motion { .. } => "shorten dt or raise guards.motion",
         Halt::NotANumber { .. } => {

@@ -197,6 +197,7 @@ fn setup_error_number(error: &SetupError) -> usize {
 fn halts() -> Vec<Advice<Halt>> {
     let (time, id, inlet, share, limit) = (0.5, 7, 1, 0.5, 0.25);
     let position = geom::Vec3::new(1.0, 2.0, 3.0);
+    let (by, insert) = (Entrance::Inlet(1), Entrance::Insert(0));
     let wall = || Partner::Wall(floor());
     let stiffer = Stiffer { speed: 3.0, key: "young", of: "glass".to_owned(), value: 2e7, unit: "Pa" };
     let stiffer = Some(Box::new(stiffer));
@@ -206,8 +207,8 @@ fn halts() -> Vec<Advice<Halt>> {
             &["particle 7", WALL, "50.0 %", "(young of glass ≥ 2.00e7 Pa for an approach at 3.000e0 m/s)"],
         ),
         (
-            Halt::InletOverlap { time, id, inlet, partner: wall(), position, overlap: 0.1, share, limit },
-            &["particle 7", "inlet 1", "--ahead"],
+            Halt::InletOverlap { time, id, by, partner: wall(), position, overlap: 0.1, share, limit },
+            &["particle 7", "inlet 1", "--ahead", "raise guards.overlap"],
         ),
         (Halt::Motion { time, id, position, motion: 0.1, share, limit }, &["particle 7", "guards.motion"]),
         (Halt::NotANumber { time, id, position }, &["particle 7", "shorten dt"]),
@@ -227,7 +228,7 @@ fn halts() -> Vec<Advice<Halt>> {
         (Halt::NotKept { time }, &["not recorded", "record_wrenches"]),
         (Halt::CameBack { time, id, inlet, position, behind: 0.1 }, &["particle 7", "guards.zones"]),
         (
-            Halt::TooFast { time, id, inlet, speed: 9.0, dt: 0.1, share, limit },
+            Halt::TooFast { time, id, by, speed: 9.0, dt: 0.1, share, limit },
             &["9.0000e0 m/s", "guards.motion"],
         ),
         (Halt::Energy { time, made: 1.0, of: 2.0, limit }, &["50.00 %", "guards.energy"]),
@@ -252,13 +253,27 @@ fn halts() -> Vec<Advice<Halt>> {
             Halt::Device { time, what: "GPU 0: out of memory".to_owned() },
             &["GPU 0", super::DEVICE_FAILED, "without --device"],
         ),
+        (
+            Halt::InletOverlap {
+                time,
+                id,
+                by: insert,
+                partner: wall(),
+                position,
+                overlap: 0.1,
+                share,
+                limit,
+            },
+            &["particle 7", "insert 0", "insert.0.rate", "raise guards.overlap"],
+        ),
     ]
 }
 
 fn halt_number(halt: &Halt) -> usize {
     match halt {
         Halt::Overlap { .. } => 0,
-        Halt::InletOverlap { .. } => 1,
+        Halt::InletOverlap { by: Entrance::Inlet(_), .. } => 1,
+        Halt::InletOverlap { by: Entrance::Insert(_), .. } => 16,
         Halt::Motion { .. } => 2,
         Halt::NotANumber { .. } => 3,
         Halt::WallNotANumber { .. } => 4,

@@ -8,7 +8,7 @@ use super::sizes::GrainKeys;
 use crate::error::Result;
 use crate::keys::{Diameter, Insert};
 use dem::setup::{ClumpScales, WallShape};
-use geom::{Shown, sphere::volume};
+use geom::{Shape, Shown, counted_as, sphere::volume};
 use record::Sizes;
 
 /// Ids that are kept for each insertion; it would have to insert this many to meet those of the next.
@@ -19,6 +19,7 @@ impl PlanBuilder<'_> {
         let mut first_id = self.next_id();
         for (i, entry) in self.keys().insert.iter().enumerate() {
             let shape = self.shape(&format!("insert.{i}.shape"), &entry.shape)?;
+            self.warn_of_grains_inside(i, entry, &shape);
             let inserted = self.inserted(i, entry)?;
             let feed = self.feed(i, entry, shape, inserted, first_id)?;
             self.in_front_of_walls(&feed, &format!("insert.{i}.shape"), &entry.shape)?;
@@ -27,6 +28,20 @@ impl PlanBuilder<'_> {
             self.join(i, feed)?;
         }
         Ok(())
+    }
+
+    /// Warns of grains that lie in the shape of an insertion which begins with the run: what comes in there would lie on top of them.
+    fn warn_of_grains_inside(&mut self, i: usize, entry: &Insert, shape: &Shape) {
+        if entry.from > 0.0 {
+            return;
+        }
+        let inside = self.particles.iter().filter(|p| shape.contains(&p.position)).count();
+        if inside > 0 {
+            let grains = counted_as(inside, "grain", ["lies", "lie"]);
+            self.warnings.push(format!(
+                "insert.{i}.shape: {grains} in it at the start, and what is inserted would lie on top of them: move the shape, or start later (from)"
+            ));
+        }
     }
 
     /// Puts a feed with those that come through the same place: none of their particles are to touch.

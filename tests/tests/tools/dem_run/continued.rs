@@ -42,8 +42,9 @@ fn the_command_after_a_signal_works_as_printed() {
     };
     let done = line(folder, &soon(&command, &said));
     assert_eq!(done.code, 0, "{command}: {}", done.stderr);
-    let count = frames(&folder.join("a run.2.mcap")).len();
-    assert!(count == 2 || count == 3, "0.02 s have {count} frames of 0.01 s, the last step being one");
+    // The whole run, and 0.02 s more with frames of 0.01 s, the last step being one.
+    let [before, count] = ["a run.mcap", "a run.2.mcap"].map(|name| frames(&folder.join(name)).len());
+    assert!(count == before + 2 || count == before + 3, "{before} frames, then {count}");
     // stdout that was sent to a file.
     let to = fs::File::create(folder.join("piped.mcap")).unwrap();
     let said = stopped(folder, "my plant's.toml", &[], to.into());
@@ -72,6 +73,50 @@ fn the_command_after_a_guard_goes_past_it() {
         done.stderr
     );
     assert!(folder.path().join("run.2.mcap").exists());
+}
+
+/// Grains that are inserted until they pile up to where they come in.
+const PILED: &str = r#"gravity = [0, 0, -9.81]
+[time]
+until = 1.5
+[output]
+every = 0.02
+[[material]]
+name = "g"
+density = 2500
+young = 2e6
+poisson = 0.3
+[[contact]]
+between = ["*", "*"]
+restitution = 0.5
+sliding_friction = 0.3
+[[insert]]
+material = "g"
+shape = "box:0,0,0.02,0.03,0.03,0.03"
+diameter = 0.006
+velocity = [0, 0, -0.3]
+rate_count = 300
+[[wall]]
+box = [-0.003, -0.003, 0, 0.033, 0.033, 0.1]
+faces = ["x-", "x+", "y-", "y+", "z-"]
+material = "g"
+"#;
+
+/// What is said is about an insert, and the command goes on, with all that was written before.
+#[test]
+fn the_command_after_an_insert_on_top_of_a_grain_goes_past_it() {
+    let folder = with(PILED);
+    let said = tool(folder.path(), "dem-run", &["s.toml", "-q", "-o", "run.mcap"]);
+    assert_eq!(said.code, 3, "{}", said.stderr);
+    for words in ["of 1.5 s", "comes in by insert 0", "insert.0.rate", "--set guards.overlap=0.5", "--whole"]
+    {
+        assert!(said.stderr.contains(words), "{words}: {}", said.stderr);
+    }
+    assert!(!said.stderr.contains("inlet") && !said.stderr.contains("stage-replay"), "{}", said.stderr);
+    let on = line(folder.path(), &printed(&said.stderr));
+    assert!(on.code == 0 || time(&on.stderr) > time(&said.stderr), "{}", on.stderr);
+    let frames = ["run.mcap", "run.2.mcap"].map(|name| frames(&folder.path().join(name)).len());
+    assert!(frames[1] >= frames[0], "{frames:?}");
 }
 
 #[test]

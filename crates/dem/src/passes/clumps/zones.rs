@@ -93,7 +93,7 @@ impl RigidClumps {
 
     /// Drops clumps whose members have left; `new` is the new number of each row, or none. Clumps stay or leave whole.
     pub(crate) fn keep(&mut self, new: &[u32]) {
-        let stays = |f: &ClumpMotion| new[self.members[f.first as usize] as usize] != FREE;
+        let stays = |f: &ClumpMotion| self.members[f.range()].iter().all(|&m| new[m as usize] != FREE);
         if self.flights.iter().all(stays) {
             return;
         }

@@ -1,7 +1,7 @@
 //! Free particles that are taken out of the calculation; those that have gone back through the inlet that they came by: once they are through its
 //! whole zone, or where they are in the way of one that comes in.
 
-use crate::model::{Halt, Model, Partner};
+use crate::model::{Entrance, Halt, Model, Partner};
 use crate::neighbours::NeighbourLists;
 use crate::passes::zones::cross::book_leaving;
 use crate::passes::zones::travel::exclude;
@@ -39,7 +39,7 @@ fn too_deep(model: &Model, state: &State, i: usize, j: usize) -> bool {
 
 /// Takes out the particle behind a calculation plane that one on its way in has run into; whether that is what stopped the step.
 pub fn clear_the_way(model: &Model, state: &mut State, lists: &NeighbourLists, halt: &Halt) -> bool {
-    let Halt::InletOverlap { inlet, partner: Partner::Particle(id), .. } = halt else {
+    let Halt::InletOverlap { by: Entrance::Inlet(inlet), partner: Partner::Particle(id), .. } = halt else {
         return false;
     };
     if model.setup.guards.zones != CameBack::IsRemoved {

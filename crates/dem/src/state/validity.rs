@@ -1,0 +1,243 @@
+//! Whether a saved state can be one of a setup: the lengths of its columns, and the indices in them.
+//!
+//! The hash of a checkpoint proves that nothing was damaged, not that a program wrote it. Everything behind this check indexes without asking again.
+
+use crate::model::StateMismatch;
+use crate::setup::{EntryClump, Particle, Sample, Setup};
+use crate::state::{
+    Bonds, CellState, ClumpMotion, Direction, FREE, Forces, Held, ListStatus, Particles, RigidClumps,
+    ServoState, Sleepers, State, ZoneParticle, Zones,
+};
+
+/// More than anything is counted up to: what is added to it stays a number.
+const MANY: u64 = 1 << 31;
+
+/// Whether a part of a state is whole, or the error that names it.
+fn whole(part: &'static str, is: bool) -> Result<(), StateMismatch> {
+    if is { Ok(()) } else { Err(StateMismatch::Content(part)) }
+}
+
+/// Whether all indices are below `end`.
+fn below<'a>(indices: impl IntoIterator<Item = &'a u32>, end: usize) -> bool {
+    indices.into_iter().all(|&k| (k as usize) < end)
+}
+
+impl State {
+    /// Refuses a state that no simulation of a setup can have, where `begun` is the one that it begins with.
+    ///
+    /// # Errors
+    /// Which part has another length, an index beyond its column, or a number that is none.
+    pub fn check(&self, begun: &State, setup: &Setup) -> Result<(), StateMismatch> {
+        let n = self.particles.len();
+        let State { particles, zones, clumps, bonds, sleepers, strained, servos, mounts, .. } = self;
+        whole("particles", particles.is_valid(setup))?;
+        whole("starting particles", below(&self.starting, n))?;
+        whole("neighbour lists", self.listing_is_valid())?;
+        whole("zones", zones.is_valid(&begun.zones, setup, n))?;
+        whole("clumps", clumps.is_valid(setup, n) && clumps.leave_together(zones))?;
+        whole("bonds", bonds.is_valid(setup, n))?;
+        whole("sleeping particles", sleepers.as_ref().is_none_or(|s| s.is_valid(n)))?;
+        let same_cell = |cell: &CellState| begun.strained.as_ref().is_some_and(|b| cell.is_valid(b));
+        whole("strained domain", strained.as_ref().is_none_or(same_cell))?;
+        let holds = |s: &ServoState| s.is_finite() && s.held.is_valid();
+        whole("servos", servos.len() == begun.servos.len() && servos.iter().all(holds))?;
+        whole("walls on springs", mounts.len() == begun.mounts.len())
+    }
+
+    /// Whether lists can have been rebuilt as it is recorded.
+    fn listing_is_valid(&self) -> bool {
+        let listing = &self.listing;
+        let listed = listing.rebuilds > 0;
+        let begins = listing.status == ListStatus::Outdated && self.forces == Forces::Due;
+        let counts = listing.rebuilds < 1 << 62 && self.steps < 1 << 62;
+        counts
+            && (listed || begins)
+            && listing.step <= self.steps
+            && listing.skin >= 0.0
+            && listing.skin.is_finite()
+    }
+}
+
+impl Particles {
+    fn is_valid(&self, setup: &Setup) -> bool {
+        let Particles { rows, acceleration, spins, angular_acceleration, id, material, home } = self;
+        let n = id.len();
+        let rotates = if self.rotates() { [n + 2, n] } else { [0, 0] };
+        let lengths = [rows.len(), acceleration.len(), material.len(), home.len()] == [n + 2, n, n, n]
+            && [spins.len(), angular_acceleration.len()] == rotates;
+        let mut ids = id.clone();
+        ids.sort_unstable();
+        lengths
+            && material.iter().all(|&m| (m as usize) < setup.materials.len())
+            && ids.windows(2).all(|two| two[0] != two[1])
+            && rows[..n].iter().all(|row| row[3] > 0.0 && row[7] > 0.0 && row.iter().all(|x| x.is_finite()))
+            && home.iter().all(|home| home[3] >= 0.0 && home.iter().all(|x| x.is_finite()))
+    }
+}
+
+/// Whether a rigid clump that comes in or goes out has a shape.
+fn has_shape(clump: &Option<EntryClump>, setup: &Setup) -> bool {
+    clump.is_none_or(|clump| (clump.shape as usize) < setup.clumps.shapes.len())
+}
+
+/// Whether all numbers of a particle are finite.
+fn is_finite(p: &Particle) -> bool {
+    p.radius > 0.0
+        && p.position.iter().chain(&p.velocity).chain(&p.spin).chain([&p.radius]).all(|x| x.is_finite())
+}
+
+/// Whether a particle in a zone can be moved: to a search, a position that is not a number is nowhere.
+fn moves_finitely(t: &ZoneParticle) -> bool {
+    let turns = t.turn.is_none_or(|turn| turn.iter().all(|x| x.is_finite()))
+        && t.turned.is_none_or(|turned| turned.coords.iter().all(|x| x.is_finite()));
+    let numbers = t.centre.iter().chain([&t.since, &t.lead]);
+    turns && is_finite(&t.start) && numbers.copied().all(f64::is_finite)
+}
+
+/// Whether a sample of a path is made of numbers.
+fn is_sample(sample: &Sample) -> bool {
+    let vectors = [&sample.position, &sample.velocity, &sample.spin];
+    sample.time.is_finite() && vectors.into_iter().flatten().all(|x| x.is_finite())
+}
+
+impl Zones {
+    fn is_valid(&self, begun: &Zones, setup: &Setup, n: usize) -> bool {
+        let (outlets, inlets) = (begun.outlets.len(), begun.inlets.len());
+        let flags = if begun.none() { 0 } else { n };
+        let material = |m: u16| (m as usize) < setup.materials.len();
+        let lengths = [self.outlets.len(), self.inlets.len(), self.beyond.len(), self.sampled.len()]
+            == [outlets, inlets, outlets, outlets];
+        let travels = |direction: &Direction| match *direction {
+            Direction::Out(outlet) => (outlet as usize) < outlets,
+            Direction::In(inlet) => (inlet as usize) < inlets,
+        };
+        lengths
+            && [self.gone.len(), self.prescribed.len()] == [flags; 2]
+            && self.flags_are_valid()
+            && self.zone_particles.iter().all(|t| travels(&t.direction) && material(t.start.material))
+            && self.zone_particles.iter().all(moves_finitely)
+            && self.pending.iter().all(|e| e.time.is_finite() && is_finite(&e.particle))
+            && self.paths.values().all(|path| path.samples.iter().all(is_sample))
+            && below(self.pending.iter().map(|e| &e.inlet), inlets)
+            && self.pending.iter().all(|e| material(e.particle.material) && has_shape(&e.clump, setup))
+            && below(self.crossings.iter().map(|c| &c.outlet), outlets)
+            && self.crossings.iter().all(|c| material(c.particle.material) && has_shape(&c.clump, setup))
+            && self.counts_are_valid(begun, n)
+    }
+
+    /// Whether the particles in zones and those that have left are those of the flags, each once.
+    fn flags_are_valid(&self) -> bool {
+        let are = |rows: Vec<u32>, flags: &[bool]| {
+            let mut rows = rows;
+            rows.sort_unstable();
+            (0..).zip(flags).filter(|(_, flag)| **flag).map(|(k, _): (u32, _)| k).eq(rows)
+        };
+        are(self.zone_particles.iter().map(|t| t.at).collect(), &self.prescribed)
+            && are(self.left.iter().map(|(k, _)| *k).collect(), &self.gone)
+            && self.gone.iter().zip(&self.prescribed).all(|(gone, prescribed)| !(*gone && *prescribed))
+    }
+
+    /// Whether particles that went back are counted for the planes that there are.
+    fn counts_are_valid(&self, begun: &Zones, n: usize) -> bool {
+        let (now, then) = (&self.lost.returned, &begun.lost.returned);
+        let watched = then.inlets.len();
+        let few = |counts: &[u64]| counts.iter().all(|&count| count < MANY);
+        let origins = if watched > 0 { n } else { self.lost.origins.len() };
+        [now.inlets.len(), now.removed.len()] == [watched; 2]
+            && [now.outlets.len(), now.fallen.len(), now.held_back.len()]
+                == [then.outlets.len(), then.fallen.len(), then.held_back.len()]
+            && [&now.inlets, &now.removed, &now.outlets, &now.fallen].iter().all(|counts| few(counts))
+            && self.lost.origins.len() == origins
+            && self.lost.origins.iter().all(|origin| origin.inlet as usize <= watched)
+    }
+}
+
+impl RigidClumps {
+    fn is_valid(&self, setup: &Setup, n: usize) -> bool {
+        let RigidClumps { flights, members, of, arms, images } = self;
+        if flights.is_empty() {
+            return members.is_empty() && of.iter().all(|&clump| clump == FREE);
+        }
+        let covered = of.len();
+        let mut first = 0;
+        let in_order = flights.iter().zip(0..).all(|(clump, number)| {
+            let shape = setup.clumps.shapes.get(clump.shape as usize);
+            let range = first..first + clump.count as usize;
+            let begins =
+                clump.first as usize == first && shape.is_some_and(|s| s.spheres.len() == range.len());
+            first = range.end;
+            let own = |m: &u32| of.get(*m as usize) == Some(&number);
+            let numbers = [
+                &clump.position,
+                &clump.velocity,
+                &clump.acceleration,
+                &clump.momentum,
+                &clump.torque,
+                &clump.spin,
+                &clump.place_before,
+            ];
+            let finite = numbers
+                .into_iter()
+                .flatten()
+                .chain(&clump.turn)
+                .chain(&clump.turn_before)
+                .all(|x| x.is_finite());
+            let weighs = clump.mass > 0.0
+                && clump.scale > 0.0
+                && clump.inverse_inertia.iter().all(|i| *i > 0.0 && i.is_finite());
+            begins && finite && weighs && members.get(range).is_some_and(|members| members.iter().all(own))
+        });
+        let joined = of.iter().filter(|&&clump| clump != FREE).count();
+        [arms.len(), images.len()] == [covered; 2]
+            && covered <= n
+            && in_order
+            && [first, joined] == [members.len(); 2]
+    }
+}
+
+impl RigidClumps {
+    /// Whether all members of a clump have left where one has.
+    fn leave_together(&self, zones: &Zones) -> bool {
+        let members = |clump: &ClumpMotion| self.members[clump.range()].iter();
+        let gone = |k: &u32| zones.is_gone(*k as usize);
+        self.flights.iter().all(|clump| members(clump).all(gone) || !members(clump).any(gone))
+    }
+}
+
+impl Bonds {
+    fn is_valid(&self, setup: &Setup, n: usize) -> bool {
+        let Bonds { on, pairs, springs, pulls, turns, due, left, .. } = self;
+        let turned = if *on { n } else { 0 };
+        let two = |ends: &[u32; 2]| ends[0] != ends[1] && below(ends, turned);
+        [springs.len(), pulls.len(), turns.len()] == [pairs.len(), pairs.len(), turned]
+            && pairs.iter().all(|pair| two(&pair.ends))
+            && below(due, setup.bonds.len())
+            && left[1] <= left[0]
+            && left[0] <= u32::MAX as usize
+    }
+}
+
+impl Sleepers {
+    fn is_valid(&self, n: usize) -> bool {
+        // Two rows behind the last stand for walls and for nothing: they are always at rest.
+        let few = |count: &u32| u64::from(*count) < MANY;
+        self.quiet.iter().all(few)
+            && [self.quiet.len(), self.held.len(), self.asleep.len()] == [n, n, n + 2]
+            && self.asleep[n..] == [true, true]
+    }
+}
+
+impl Held {
+    fn is_valid(&self) -> bool {
+        u64::from(self.near) < MANY && self.steps < 1 << 62 && self.limited <= self.steps
+    }
+}
+
+impl CellState {
+    fn is_valid(&self, begun: &CellState) -> bool {
+        let periodic = |cell: &CellState| cell.lengths.map(|l| [0, 1, 2].map(|a| l[a] > 0.0));
+        let follows = |cell: &CellState| cell.followers.map(|f| f.is_some());
+        let held = self.followers.iter().flatten().all(|follower| follower.held.is_valid());
+        held && self.is_finite() && periodic(self) == periodic(begun) && follows(self) == follows(begun)
+    }
+}
