@@ -2,7 +2,7 @@
 //!
 //! The spheres that a grain touches share their elastic energy, but each adheres by itself. On a flat wall of spheres d/10 and d/20 apart, d the diameter of
 //! the grain: Hertz with cohesion loses 7 % of the energy of an elastic bounce at any step, the pull-off force of JKR is 1.0 and 1.5 times that of a plane, and
-//! what caps friction and rolling 1.3 and 1.7 times where adhesion presses most. At d/4 all are within 2 % of those of a plane.
+//! what caps friction and rolling 1.3 and 1.7 times where adhesion presses most. At d/4 pull-off and caps are within 4 % of those of a plane.
 
 use super::builder::PlanBuilder;
 use dem::effects::{Slot, active};
