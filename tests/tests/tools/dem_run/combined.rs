@@ -88,7 +88,7 @@ fn grains_that_touch_a_wall_are_counted_once_each() {
             _ => None,
         };
         let (events, _) = super::events(&folder.join("run.mcap"));
-        let last = events.into_iter().filter_map(pick).last().expect("forces");
+        let last = events.into_iter().filter_map(pick).next_back().expect("forces");
         let frame: Value = serde_json::from_slice(&last).expect("JSON");
         let walls = frame["walls"].as_array().expect("walls").iter();
         walls.map(|wall| wall["contacts"].as_u64().expect("a number")).collect()

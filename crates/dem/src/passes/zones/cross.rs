@@ -39,6 +39,15 @@ enum Leave {
     Through,
 }
 
+/// What a step has done at storage planes.
+#[derive(Default)]
+struct Found {
+    /// Particles that have passed one, with their states there.
+    crossings: Vec<(usize, Crossing)>,
+    /// Those that leave behind one, of which outlet, and how.
+    leaving: Vec<(usize, usize, Leave)>,
+}
+
 /// b of the module's head.
 fn since_passage(past: f64, speed: f64, acceleration: f64) -> f64 {
     let square = speed * speed - 2.0 * acceleration * past;
@@ -46,17 +55,18 @@ fn since_passage(past: f64, speed: f64, acceleration: f64) -> f64 {
 }
 
 pub fn find_crossings(model: &Model, state: &mut State, lists: &NeighbourLists) {
-    let (mut found, mut leaving) = (Vec::new(), Vec::new());
+    let mut found = Found::default();
     for outlet in 0..state.zones.outlets.len() {
-        cross_outlet(model, state, lists, outlet, (&mut found, &mut leaving));
+        cross_outlet(model, state, lists, outlet, &mut found);
     }
-    for (k, outlet, leave) in leaving {
+    for (k, outlet, leave) in found.leaving {
         state.zones.crossed[outlet].remove(&state.particles.id[k]);
         // One that falls back has been recorded all the same.
         state.zones.lost.returned.fallen[outlet] += u64::from(leave == Leave::FallenBack);
         take_out(model, state, lists, k);
     }
     // A particle that passes several planes in one step passes the first of them.
+    let mut found = found.crossings;
     found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.time.total_cmp(&b.1.time)).then(a.1.outlet.cmp(&b.1.outlet)));
     found.dedup_by_key(|f| f.0);
     for (k, crossing) in found {
@@ -66,13 +76,7 @@ pub fn find_crossings(model: &Model, state: &mut State, lists: &NeighbourLists) 
 }
 
 /// Finds the particles that have passed one plane, and those that leave behind it.
-fn cross_outlet(
-    model: &Model,
-    state: &mut State,
-    lists: &NeighbourLists,
-    outlet: usize,
-    (found, leaving): (&mut Vec<(usize, Crossing)>, &mut Vec<(usize, usize, Leave)>),
-) {
+fn cross_outlet(model: &Model, state: &mut State, lists: &NeighbourLists, outlet: usize, found: &mut Found) {
     let left_margin = state.listing.status != ListStatus::Valid;
     let near = std::mem::take(&mut state.zones.near[outlet]);
     let all = || 0..state.particles.len() as u32;
@@ -89,12 +93,12 @@ fn cross_outlet(
                 state.zones.beyond[outlet].remove(&state.particles.id[k]);
                 state.zones.lost.returned.outlets[outlet] += 1;
             }
-            Some(PlanePassage::Leaves(leave)) => leaving.push((k, outlet, leave)),
+            Some(PlanePassage::Leaves(leave)) => found.leaving.push((k, outlet, leave)),
             Some(PlanePassage::Past(past)) => {
                 let crossing = crossing(model, state, lists, k, outlet as u32, past);
                 // One that does not move with the flow has not passed yet: carried on by its velocity, it would never leave.
                 if crossing.particle.velocity.dot(&state.zones.outlets[outlet].plane.normal) > 0.0 {
-                    found.push((k, crossing));
+                    found.crossings.push((k, crossing));
                 }
             }
         }

@@ -36,8 +36,9 @@ fn force_of_followers(state: &State, lists: &NeighbourLists, outlet: usize) -> V
     let (crossed, id) = (&state.zones.crossed[outlet], |k: usize| state.particles.id[k]);
     let first = state.zones.near[outlet].iter().map(|&k| k as usize).filter(|&k| crossed.contains(&id(k)));
     let members = first.flat_map(|k| rows_with(state, k));
-    let follows = |other: usize| match rows_with(state, other)[0] as usize {
-        first => state.zones.is_free(first) && !crossed.contains(&id(first)),
+    let follows = |other: usize| {
+        let first = rows_with(state, other)[0] as usize;
+        state.zones.is_free(first) && !crossed.contains(&id(first))
     };
     let on = |k: u32| -> Vec3 {
         let ends = lists.slots.of_particle(k as usize).iter();
