@@ -30,7 +30,8 @@ impl Scene {
             // Errors of the file itself name places in the file itself; what the overrides cure is none.
             if let Err(error) = parse(&text) {
                 let mut changed = text.clone();
-                if changed.set(overrides).and_then(|()| parse(&changed).map(drop)).is_err() {
+                let after = changed.set(overrides).and_then(|()| parse(&changed).map(drop));
+                if after.is_err_and(|after| after.to_string() == error.to_string()) {
                     return Err(error);
                 }
             }

@@ -131,7 +131,7 @@ fn clumps_pass_the_cut_whole() {
 /// Records turn, repeat and get new ids with all members of their clumps.
 #[test]
 fn replays_of_clumps_keep_them_whole() {
-    let folder = clumped("");
+    let folder = clumped("--motion constant");
     let done = line(
         folder.path(),
         "dem-run up.toml -o up.mcap && stage-replay up.mcap --repeat 2 --period 0.3 -o twice.mcap \

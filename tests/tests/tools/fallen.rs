@@ -29,7 +29,7 @@ material = "g"
 solid = "box:-0.01,-0.01,-0.01,0.11,0.11,0"
 material = "g"
 [[wall]]
-shape = "box:0,0,0,0.1,0.1,0.2"
+solid = "box:0,0,0,0.1,0.1,0.2"
 material = "g"
 "#;
 

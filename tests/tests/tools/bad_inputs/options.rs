@@ -13,7 +13,7 @@ const OF_CLOUD_CROP_AND_FILL: &[Case] = &[
     misused("cloud-crop good.ply --kep sphere:0,0,0,1", &["--kep", "--keep"]),
     misused("cloud-crop good.ply --largest -1", &["--largest"]),
     misused("cloud-crop good.ply --threads 0", &["--threads"]),
-    misused("cloud-crop good.ply good.xyz", &["good.xyz"]),
+    misused("cloud-fill good.ply good.xyz", &["good.xyz"]),
     misused("cloud-fill good.ply --spacing 0", &["--spacing", "above 0"]),
     misused("cloud-fill good.ply --spacing=-0.1", &["--spacing", "above 0"]),
     misused("cloud-fill good.ply --fill noise", &["--fill", "noise", "blue-noise"]),

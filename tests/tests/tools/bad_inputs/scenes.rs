@@ -44,7 +44,11 @@ pub fn scenes() -> TempDir {
     let f = folder.path();
     succeed(f, "wallgen", &["good.ply", "--roughness", "0.002", "--material", "sinter", "-o", "walls.mcap"]);
     for (stage, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
-        succeed(f, "stage-split", &["plant.toml", "--at", "0,0,0,0,0,-1", "--keep", stage, "-o", file]);
+        succeed(
+            f,
+            "stage-split",
+            &["plant.toml", "--at", "0,0,0,0,0,-1", "--keep", stage, "--motion", "constant", "-o", file],
+        );
     }
     succeed(f, "dem-run", &["s.toml", "-o", "run.mcap"]);
     succeed(f, "dem-run", &["up.toml", "--until", "0.1", "-o", "up.mcap"]);

@@ -50,7 +50,9 @@ fn what_adheres_at_an_exclusion_plane_makes_no_energy() {
         let column = column.expect("a column for what the step made");
         for row in rows.lines().skip(1) {
             let made: f64 = row.split(',').nth(column).expect("a number").parse().expect("a number");
-            assert!(made.abs() < 1e-9, "{motion}: {made:e} J");
+            // Grains that stay free collide, and a step makes a little of their 6.9e-4 J.
+            let limit = if motion == "recorded" { 1e-8 } else { 1e-12 };
+            assert!(made.abs() < limit, "{motion}: {made:e} J");
         }
     }
 }
@@ -111,8 +113,8 @@ fn grains_that_touch_a_wall_are_counted_once_each() {
     assert_eq!(counted(spheres.path()), [2]);
     let plate = with(
         &(start
-            + "[[clump]]\nname = \"plate\"\nspheres = [[-0.004, -0.004, 0, 0.003], [0.004, -0.004, 0, 0.003], [-0.004, 0.004, 0, 0.003], [0.004, 0.004, 0, 0.003]]\n\
-               [[body]]\nclump = \"plate\"\nmaterial = \"g\"\nposition = [0, 0, 0.003]\n[[wall]]\nplane = \"0,0,0,0,0,1\"\nmaterial = \"g\"\n"),
+            + "[[clump]]\nname = \"plate\"\nmaterial = \"g\"\nspheres = [[-0.004, -0.004, 0, 0.003], [0.004, -0.004, 0, 0.003], [-0.004, 0.004, 0, 0.003], [0.004, 0.004, 0, 0.003]]\n\
+               [[body]]\nclump = \"plate\"\nposition = [0, 0, 0.003]\n[[wall]]\nplane = \"0,0,0,0,0,1\"\nmaterial = \"g\"\n"),
     );
     let done = run(plate.path(), &[]);
     assert_eq!(done.code, 0, "{}", done.stderr);
@@ -147,7 +149,7 @@ fn walls_too_dense_for_adhesion_are_named() {
 fn overrides_may_cure_a_scene() {
     let scene = "gravity = [\"0\", \"0\", \"-9.81 m/s²\"]\ntime.until = 0.001\n".to_owned()
         + &head("sliding_friction = 0.4")
-        + "[[insert]]\nmaterial = \"g\"\ndiameter = 0.006\nshape = \"box:0,0,0,0.1,0.1,0.1\"\nrate_count = 100\nmass = \"5 g\"\n\
+        + "[[insert]]\nmaterial = \"g\"\ndiameter = 0.006\nshape = \"box:0,0,0,0.1,0.1,0.1\"\nrate_count = 100\nvelocity = [0, 0, -1]\nmass = \"5 g\"\n\
            [[wall]]\nplane = \"0,0,-0.01,0,0,1\"\nmaterial = \"g\"\nspring = { direction = [0, 0, 1], stiffness = \"1 kN/m\", damping = \"0.1 N·s/m\", mass = 1 }\n";
     let folder = with(&scene);
     let missing = run(folder.path(), &["--check"]);
