@@ -96,9 +96,10 @@ const TABLE: [(&str, [Expected; 7]); 14] = [
             n(50),
             n(50),
             n(50),
-            n(50),
+            // The others are left out, which is said.
             n(1),
-            refused(&["count 10", "duplicates"]),
+            n(1),
+            refused(&["count 10", "only 1 points"]),
             refused(&["same position", "bluenoise-sample"]),
         ],
     ),
