@@ -83,7 +83,7 @@ mod tests {
         let held = |impulse| HeldBack { impulse, momentum: 2.0, passed: 30 };
         let returned = Returned { held_back: vec![held(0.05), held(0.25)], ..Returned::default() };
         let found = warnings(&returned);
-        assert!(found.len() == 1 && found[0].starts_with("outlet.1: grains in its zone"), "{found:?}");
+        assert!(found.len() == 1 && found[0].starts_with("outlet.1: grains behind its plane"), "{found:?}");
         assert!(found[0].contains("by 0.25 N s, 12.5 % of the momentum of the stream (2 N s)"), "{found:?}");
     }
 }

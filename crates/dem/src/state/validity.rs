@@ -11,6 +11,8 @@ use crate::state::{
 
 /// More than anything is counted up to: what is added to it stays a number.
 const MANY: u64 = 1 << 31;
+/// Beyond this no length or speed is meant [m, m/s]: sums of a few of its squares are numbers.
+const HUGE: f64 = 1e150;
 
 /// Whether a part of a state is whole, or the error that names it.
 fn whole(part: &'static str, is: bool) -> Result<(), StateMismatch> {
@@ -54,7 +56,7 @@ impl State {
             && (listed || begins)
             && listing.step <= self.steps
             && listing.skin >= 0.0
-            && listing.skin.is_finite()
+            && is_meant(&listing.skin)
     }
 }
 
@@ -70,8 +72,8 @@ impl Particles {
         lengths
             && material.iter().all(|&m| (m as usize) < setup.materials.len())
             && ids.windows(2).all(|two| two[0] != two[1])
-            && rows[..n].iter().all(|row| row[3] > 0.0 && row[7] > 0.0 && row.iter().all(|x| x.is_finite()))
-            && home.iter().all(|home| home[3] >= 0.0 && home.iter().all(|x| x.is_finite()))
+            && rows[..n].iter().all(|row| row[3] > 0.0 && row[7] > 0.0 && row.iter().all(is_meant))
+            && home.iter().all(|home| home[3] >= 0.0 && home.iter().all(is_meant))
     }
 }
 
@@ -80,10 +82,14 @@ fn has_shape(clump: &Option<EntryClump>, setup: &Setup) -> bool {
     clump.is_none_or(|clump| (clump.shape as usize) < setup.clumps.shapes.len())
 }
 
-/// Whether all numbers of a particle are finite.
+/// Whether a length or a speed can be meant.
+fn is_meant(x: &f64) -> bool {
+    x.abs() < HUGE
+}
+
+/// Whether all numbers of a particle can be meant.
 fn is_finite(p: &Particle) -> bool {
-    p.radius > 0.0
-        && p.position.iter().chain(&p.velocity).chain(&p.spin).chain([&p.radius]).all(|x| x.is_finite())
+    p.radius > 0.0 && p.position.iter().chain(&p.velocity).chain(&p.spin).chain([&p.radius]).all(is_meant)
 }
 
 /// Whether a particle in a zone can be moved: to a search, a position that is not a number is nowhere.
@@ -105,8 +111,9 @@ impl Zones {
         let (outlets, inlets) = (begun.outlets.len(), begun.inlets.len());
         let flags = if begun.none() { 0 } else { n };
         let material = |m: u16| (m as usize) < setup.materials.len();
-        let lengths = [self.outlets.len(), self.inlets.len(), self.beyond.len(), self.sampled.len()]
-            == [outlets, inlets, outlets, outlets];
+        let of_outlets = [&self.beyond, &self.crossed, &self.sampled].map(Vec::len);
+        let lengths =
+            [self.outlets.len(), self.inlets.len()] == [outlets, inlets] && of_outlets == [outlets; 3];
         let travels = |direction: &Direction| match *direction {
             Direction::Out(outlet) => (outlet as usize) < outlets,
             Direction::In(inlet) => (inlet as usize) < inlets,
