@@ -112,9 +112,8 @@ fn refused(scene: &str, seed: u64) -> usize {
     let (body, mut random) = (&good[HEAD..], Chance(seed));
     let places = index_like(body, scene.len() + 100);
     let mut refused = 0;
-    for n in 0..CHANGES {
-        let anywhere = scene.len() + 100 + random.below(body.len() - scene.len() - 104);
-        let at = if n % 4 == 0 { anywhere } else { places[random.below(places.len())] };
+    for _ in 0..CHANGES {
+        let at = places[random.below(places.len())];
         let words =
             [u32::MAX, u32::MAX - 1, 0, 1, 63, 4095, 1 << 31, 0x7ff8_0000, random.below(1 << 32) as u32];
         let word = words[random.below(words.len())];

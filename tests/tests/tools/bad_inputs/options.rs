@@ -23,8 +23,8 @@ const OF_CLOUD_CROP_AND_FILL: &[Case] = &[
 const OF_BLUENOISE_SAMPLE: &[Case] = &[
     misused("bluenoise-sample good.ply", &["--spacing", "--count", "--density"]),
     misused("bluenoise-sample good.ply --spacing 0.01 --count 5", &["--spacing", "--count"]),
-    misused("bluenoise-sample good.ply --spacing -0.01", &["spacing -0.01 m", "positive"]),
-    misused("bluenoise-sample good.ply --spacing 12mm", &["--spacing", "12mm", "not a number", "SI units"]),
+    misused("bluenoise-sample good.ply --spacing -0.01", &["'-0.01' for '--spacing", "above 0"]),
+    misused("bluenoise-sample good.ply --spacing 12furlong", &["--spacing", "12furlong", "furlong"]),
     misused("bluenoise-sample good.ply --count 0", &["count 0"]),
     misused("bluenoise-sample good.ply --density 500,20", &["density 500,20", "lower one first"]),
     misused("bluenoise-sample good.ply --density 500 --method tile", &["--density", "LO,HI"]),

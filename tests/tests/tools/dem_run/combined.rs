@@ -113,7 +113,7 @@ fn grains_that_touch_a_wall_are_counted_once_each() {
     assert_eq!(counted(spheres.path()), [2]);
     let plate = with(
         &(start
-            + "[[clump]]\nname = \"plate\"\nmaterial = \"g\"\nspheres = [[-0.004, -0.004, 0, 0.003], [0.004, -0.004, 0, 0.003], [-0.004, 0.004, 0, 0.003], [0.004, 0.004, 0, 0.003]]\n\
+            + "[[clump]]\nname = \"plate\"\nmaterial = \"g\"\nspheres = [[-0.002, -0.002, 0, 0.003], [0.002, -0.002, 0, 0.003], [-0.002, 0.002, 0, 0.003], [0.002, 0.002, 0, 0.003]]\n\
                [[body]]\nclump = \"plate\"\nposition = [0, 0, 0.003]\n[[wall]]\nplane = \"0,0,0,0,0,1\"\nmaterial = \"g\"\n"),
     );
     let done = run(plate.path(), &[]);
@@ -150,7 +150,7 @@ fn overrides_may_cure_a_scene() {
     let scene = "gravity = [\"0\", \"0\", \"-9.81 m/s²\"]\ntime.until = 0.001\n".to_owned()
         + &head("sliding_friction = 0.4")
         + "[[insert]]\nmaterial = \"g\"\ndiameter = 0.006\nshape = \"box:0,0,0,0.1,0.1,0.1\"\nrate_count = 100\nvelocity = [0, 0, -1]\nmass = \"5 g\"\n\
-           [[wall]]\nplane = \"0,0,-0.01,0,0,1\"\nmaterial = \"g\"\nspring = { direction = [0, 0, 1], stiffness = \"1 kN/m\", damping = \"0.1 N·s/m\", mass = 1 }\n";
+           [[wall]]\nplane = \"0,0,-0.01,0,0,1\"\nmaterial = \"g\"\nspring = { direction = [0, 0, 1], stiffness = \"1 kN/m\", damping = \"0.1 N·s/m\", mass = 1, speed_limit = 0.1 }\n";
     let folder = with(&scene);
     let missing = run(folder.path(), &["--check"]);
     assert!(missing.code == 1 && missing.stderr.contains("restitution"), "{}", missing.stderr);
