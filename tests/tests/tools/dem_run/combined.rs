@@ -152,10 +152,11 @@ fn overrides_may_cure_a_scene() {
         + "[[insert]]\nmaterial = \"g\"\ndiameter = 0.006\nshape = \"box:0,0,0,0.1,0.1,0.1\"\nrate_count = 100\nvelocity = [0, 0, -1]\nmass = \"5 g\"\n\
            [[wall]]\nplane = \"0,0,-0.01,0,0,1\"\nmaterial = \"g\"\nspring = { direction = [0, 0, 1], stiffness = \"1 kN/m\", damping = \"0.1 N·s/m\", mass = 1, speed_limit = 0.1 }\n";
     let folder = with(&scene);
-    let missing = run(folder.path(), &["--check"]);
+    let missing = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
     assert!(missing.code == 1 && missing.stderr.contains("restitution"), "{}", missing.stderr);
-    let cured = run(folder.path(), &["--check", "--set", "contact.0.restitution=0.5"]);
+    let cured = tool(folder.path(), "dem-run", &["s.toml", "--check", "--set", "contact.0.restitution=0.5"]);
     assert_eq!(cured.code, 0, "{}", cured.stderr);
-    let still = run(folder.path(), &["--check", "--set", "contact.0.cohesion=\"none\""]);
+    let still =
+        tool(folder.path(), "dem-run", &["s.toml", "--check", "--set", "contact.0.rolling_resistance=0.1"]);
     assert!(still.code == 1 && still.stderr.contains("restitution"), "{}", still.stderr);
 }
