@@ -67,7 +67,7 @@ const LEFT_OUT: &[(&str, &str)] = &[
     ("wall.source", "needs a file of wallgen: layers of fixed grains are walls of spheres, too"),
     (
         "wall.place",
-        "turns with the axes that other relations turn: a test of the scene's walls puts each kind in its place",
+        "turns with the axes that other relations turn: a test of each kind of wall compares it with one that is drawn there",
     ),
     ("clump.mesh", "needs a closed mesh for each clump: spheres and moments are drawn"),
     ("clump.vertex_radius", "stands beside `mesh`"),

@@ -129,7 +129,7 @@ fn refused(scene: &str, seed: u64) -> usize {
 }
 
 #[test]
-#[ignore = "some numbers that nobody means, such as a velocity of 1e200 m/s of a clump, still reach the search for neighbours"]
+#[ignore = "some numbers without meaning, such as a velocity of 1e200 m/s of a clump, still reach the search for neighbours"]
 fn no_changed_checkpoint_ends_in_a_panic() {
     for (seed, further) in [CLUMPS, SERVO, BONDS].into_iter().enumerate() {
         let refused = refused(&(MATERIALS.to_owned() + further), seed as u64);
