@@ -72,6 +72,9 @@ const LEFT_OUT: &[(&str, &str)] = &[
     ("clump.mesh", "needs a closed mesh for each clump: spheres and moments are drawn"),
     ("clump.vertex_radius", "stands beside `mesh`"),
     ("clump.faces", "stands beside `mesh`"),
+    ("insert.repeat", "opens seconds later: a test of its windows compares each with those written out"),
+    ("insert.times", "stands beside `repeat`"),
+    ("wall.motion.repeat", "goes on seconds later: a test compares each kind of motion with a list"),
     ("inlet.", "needs the record of a stage upstream: the tests of zones and stages cut scenes and compare"),
 ];
 

@@ -3,7 +3,8 @@
 //! ```text
 //! x(t) = c + R(α(p))(x₀ − c) + v p + a sin(2π f p) + s(p)     v(x) = ẋ, exactly, at every time
 //! α(p) = Ω p + A sin(2π f_s p) + β(p)                          s, β: a table, linear between its rows
-//! p(t): 0 until `from`, then t − from, and constant from `until` on; with a ramp its rate rises from 0 to 1, and falls before the end
+//! p(t): 0 until `from`, then t − from, and constant from `until` on; with a ramp its rate rises from 0 to 1, and falls before the end;
+//!       with a period it does so again from `from` + k × period on, from where it has come; a table then begins anew
 //! ```
 //!
 //! A list of motions is their composition: each acts on what the ones before it have moved, so that the axis of a turn is carried by
@@ -39,6 +40,8 @@ pub struct Motion {
     pub until: f64,
     /// Time in which the motion starts, and in which it ends [s]; 0: at once.
     pub ramp: f64,
+    /// Time after which it starts again, each time from where it has come [s]; ∞: never.
+    pub period: f64,
     /// A, axis times amplitude of a swing [rad].
     pub swing: Vec3,
     /// f_s [Hz].
@@ -68,6 +71,7 @@ impl Motion {
             from: 0.0,
             until: f64::INFINITY,
             ramp: 0.0,
+            period: f64::INFINITY,
             swing: zero,
             swing_frequency: 0.0,
             path: None,
@@ -148,15 +152,25 @@ impl Motion {
 
     fn runs_alone(&self, time: f64) -> bool {
         let last = self.path.as_ref().filter(|_| !self.acts_beside_path()).map_or(f64::INFINITY, Path::last);
-        (self.from..self.until).contains(&time) && self.progress(time).0 < last
+        let (_, time) = self.within(time);
+        (self.from..self.until).contains(&time) && self.progress_once(time).0 < last
     }
 
     fn acts_beside_path(&self) -> bool {
         self.velocity != Vec3::zeros() || self.turn != Vec3::zeros() || self.vibrates() || self.swings()
     }
 
-    /// p [s], and its rate [–].
-    fn progress(&self, time: f64) -> (f64, f64) {
+    /// How often it has run before the period that `time` [s] is in, and the time in its first period that `time` stands for [s].
+    fn within(&self, time: f64) -> (f64, f64) {
+        if self.period == f64::INFINITY || time < self.from {
+            return (0.0, time);
+        }
+        let before = libm::floor((time - self.from) / self.period);
+        (before, time - before * self.period)
+    }
+
+    /// p [s] of one period, and its rate [–].
+    fn progress_once(&self, time: f64) -> (f64, f64) {
         let runs = (self.from..self.until).contains(&time);
         let u = time.max(self.from).min(self.until) - self.from;
         let rate = if runs { 1.0 } else { 0.0 };
@@ -182,7 +196,10 @@ impl Motion {
     }
 
     fn pose_alone(&self, time: f64) -> Pose {
-        let (time, rate) = self.progress(time);
+        let (before, time) = self.within(time);
+        let (once, rate) = self.progress_once(time);
+        let whole = if before == 0.0 { 0.0 } else { self.progress_once(self.until).0 };
+        let time = before * whole + once;
         let mut pose = Pose::turned(&self.turn, self.turn.norm() * time, self.through);
         pose.turn = self.turn * rate;
         if self.swings() {
@@ -198,9 +215,10 @@ impl Motion {
             velocity += self.amplitude * (omega * libm::cos(omega * time));
         }
         if let Some(path) = &self.path {
-            let at = path.at(time);
-            pose = pose.turned_by(&path.about, at.angle, path.about * (at.spin * rate));
-            shift += at.shift;
+            let (at, end) = (path.at(once), if before == 0.0 { None } else { Some(path.at(whole)) });
+            let angle = end.as_ref().map_or(at.angle, |end| before * end.angle + at.angle);
+            pose = pose.turned_by(&path.about, angle, path.about * (at.spin * rate));
+            shift += end.map_or(at.shift, |end| end.shift * before + at.shift);
             velocity += at.velocity;
         }
         pose.shifted(shift, velocity * rate)
@@ -220,7 +238,8 @@ impl Motion {
             let vibration = 2.0 * PI * m.frequency.abs() * m.amplitude.norm();
             sum +=
                 m.velocity.norm() + vibration + path.0 + if turning == 0.0 { 0.0 } else { turning * reach };
-            let far = if m.velocity == Vec3::zeros() { 0.0 } else { m.velocity.norm() * (m.until - m.from) };
+            let open = if m.period.is_finite() { f64::INFINITY } else { m.until - m.from };
+            let far = if m.velocity == Vec3::zeros() { 0.0 } else { m.velocity.norm() * open };
             carried += far + m.amplitude.norm() + m.path.as_ref().map_or(0.0, Path::farthest) + 2.0 * reach;
         }
         sum

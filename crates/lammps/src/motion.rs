@@ -71,6 +71,12 @@ impl Movement {
         if parts.iter().any(|m| m.ramp != 0.0) {
             return refuse("ramp is not written for LAMMPS", "leave ramp out");
         }
+        if parts.iter().any(|m| m.period.is_finite()) {
+            return refuse(
+                "repeat is not written for LAMMPS",
+                "write each of its times as a motion of a list",
+            );
+        }
         let turns = parts.iter().any(|m| m.turn != Vec3::zeros());
         match &parts[..] {
             [m] if turns => match (m.from, m.until, m.velocity == Vec3::zeros() && m.frequency == 0.0) {

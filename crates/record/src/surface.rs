@@ -98,6 +98,9 @@ pub fn to_json(m: &Motion) -> Value {
     if m.ramp != 0.0 {
         json["ramp"] = m.ramp.into();
     }
+    if m.period.is_finite() {
+        json["period"] = m.period.into();
+    }
     if m.swing_frequency != 0.0 {
         json["swing"] = json!({"amplitude": m.swing, "frequency": m.swing_frequency});
     }
@@ -126,6 +129,7 @@ fn motion(json: &Value) -> Option<Motion> {
         from: json["from"].as_f64().unwrap_or(0.0),
         until: json["until"].as_f64().unwrap_or(f64::INFINITY),
         ramp: json["ramp"].as_f64().unwrap_or(0.0),
+        period: json["period"].as_f64().unwrap_or(f64::INFINITY),
         swing: if swings { vector(&swing["amplitude"])? } else { Vec3::zeros() },
         swing_frequency: if swings { swing["frequency"].as_f64()? } else { 0.0 },
         path: if json["path"].is_null() { None } else { Some(path(&json["path"])?) },
@@ -197,7 +201,7 @@ mod tests {
         let row = |time, x| PathRow { time, shift: Vec3::new(x, 0.0, 0.0), angle: 0.5 * x };
         let path = Path::new(Vec3::z(), vec![row(0.0, 0.0), row(1.0, 2.0)]).ok();
         let swing = Motion { swing: Vec3::y(), swing_frequency: 3.0, ramp: 0.1, ..Motion::default() };
-        let first = Motion { frequency: 2.0, from: 0.5, until: 1.5, ..Motion::default() };
+        let first = Motion { frequency: 2.0, from: 0.5, until: 1.5, period: 4.0, ..Motion::default() };
         let motion = Motion::of(vec![first, swing, Motion { path, ..Motion::default() }]);
         let wall = WallRecord { name: "floor".to_owned(), motion, surface };
         let text = json!([wall.to_json(3, 0, None)]).to_string();

@@ -5,7 +5,7 @@ use cli::{Output, Source, usage};
 use geom::number::finite;
 use geom::{Plane, Vec3};
 use scene::ZoneMotion;
-use stages::replay::{Copies, Frame, Intervals, Replay};
+use stages::replay::{Copies, Frame, Intervals, Passage, Replay};
 
 const EXAMPLES: &str = "Examples:\n\
     \x20 dem-run up.toml | tee up.mcap | stage-replay | dem-run down.toml - -o down.mcap\n\
@@ -39,6 +39,9 @@ pub struct Args {
     /// Where grains keep their recorded intervals: on the generation plane, or on both planes of the zone, which avoids overlaps in a dense flow
     #[arg(long, value_enum, default_value = "both")]
     intervals: Keep,
+    /// How passages are counted: as the instant within a step, or in whole time steps of the run
+    #[arg(long, value_enum, default_value = "time")]
+    passage: Count,
     /// Motion in the zone (default: that of the run)
     #[arg(long = "move", value_enum)]
     motion: Option<Motion>,
@@ -80,6 +83,12 @@ pub struct Args {
 enum Keep {
     Generation,
     Both,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Count {
+    Time,
+    Steps,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -138,6 +147,10 @@ impl Args {
             intervals: match self.intervals {
                 Keep::Generation => Intervals::Generation,
                 Keep::Both => Intervals::Both,
+            },
+            passage: match self.passage {
+                Count::Time => Passage::Time,
+                Count::Steps => Passage::Steps,
             },
             motion: self.motion.map(|motion| match motion {
                 Motion::Constant => ZoneMotion::Constant,

@@ -229,7 +229,9 @@ fn motion<F: Fn() -> Subject>(m: &Motion, check: &Check<F>) -> Result<(), SetupE
     let (from, until, ramp) = (m.from, m.until, m.ramp);
     check.within("motion.until", until, "s", until > from, "times after motion.from")?;
     let fits = ramp >= 0.0 && ramp.is_finite() && 2.0 * ramp <= until - from;
-    check.within("motion.ramp", ramp, "s", fits, "0 to half of the time from motion.from to motion.until")
+    check.within("motion.ramp", ramp, "s", fits, "0 to half of the time from motion.from to motion.until")?;
+    let longer = m.period >= until - from && m.period > 0.0;
+    check.within("motion.repeat", m.period, "s", longer, "at least the time from motion.from to motion.until")
 }
 
 /// Of spheres, and of the spheres that hold whole clumps [m].

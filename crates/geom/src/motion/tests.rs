@@ -164,3 +164,39 @@ fn the_shift_does_not_depend_on_the_origin() {
         assert!((place - there.position(&(turn * Vec3::x() + by))).norm() < 1e-11, "the same motion");
     }
 }
+
+/// A motion that repeats is the list of its times written out, for every kind of motion.
+#[test]
+fn a_motion_that_repeats_is_that_of_its_times_written_out() {
+    let row = |time, x, angle| PathRow { time, shift: Vec3::new(x, 0.0, 0.0), angle };
+    let path = Path::new(Vec3::z(), vec![row(0.0, 0.0, 0.0), row(0.2, 0.3, 0.5), row(0.5, 0.0, 0.2)]).ok();
+    let window = Motion { from: 0.3, until: 0.9, ..Motion::default() };
+    let kinds = [
+        Motion { velocity: Vec3::new(0.4, 0.0, -1.0), ramp: 0.1, ..window.clone() },
+        Motion { turn: Vec3::new(0.0, 0.0, 2.0), through: Vec3::x(), ramp: 0.3, ..window.clone() },
+        Motion { path, through: Vec3::x(), ..window },
+    ];
+    let home = Vec3::new(0.3, 0.7, -0.2);
+    for kind in kinds {
+        for period in [0.6, 1.0, 1.7] {
+            let times = |k: u32| Motion {
+                from: kind.from + period * f64::from(k),
+                until: kind.until + period * f64::from(k),
+                ..kind.clone()
+            };
+            let (list, again) = (Motion::of((0..5).map(times).collect()), Motion { period, ..kind.clone() });
+            for k in 0..300u32 {
+                // Times on which nothing starts or ends.
+                let time = 0.0171 * f64::from(k);
+                if time > 0.3 + 5.0 * period {
+                    break;
+                }
+                let (a, b) = (list.pose(time), again.pose(time));
+                let (at, other) = (a.position(&home), b.position(&home));
+                assert!((at - other).norm() < 1e-13, "{time}: {at} {other}");
+                assert!((a.velocity(&at) - b.velocity(&other)).norm() < 1e-11, "{time}");
+                assert_eq!(list.runs(time), again.runs(time), "{time}");
+            }
+        }
+    }
+}

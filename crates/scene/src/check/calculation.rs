@@ -73,10 +73,12 @@ impl Check<'_> {
             let why = "a stage of a cut runs to its until: the other stages count on it";
             return Err(self.wrong(&key, value, why, "take it out, or settle the scene before it is cut"));
         }
-        let endless = |i: &Insert| i.until.is_none() && i.mass.is_none() && i.count.is_none();
+        let open = |i: &Insert| i.until.is_none() && i.mass.is_none() && i.count.is_none();
+        let endless = |i: &Insert| if i.repeat.is_some() { i.times.is_none() } else { open(i) };
         if let Some(at) = m.insert.iter().position(endless) {
             let why = format!("insert.{at} has no end, so that the grains never come to rest");
-            return Err(self.wrong(&key, value, &why, &format!("add until, mass or count to insert.{at}")));
+            let missing = if m.insert[at].repeat.is_some() { "times" } else { "until, mass or count" };
+            return Err(self.wrong(&key, value, &why, &format!("add {missing} to insert.{at}")));
         }
         Ok(())
     }

@@ -111,6 +111,28 @@ impl Check<'_> {
         }
     }
 
+    /// The period of what runs from `from` to `until` again and again; it ends before it starts anew.
+    pub(crate) fn repeat(
+        &self,
+        entry: &str,
+        repeat: Option<f64>,
+        from: f64,
+        until: Option<f64>,
+    ) -> Result<()> {
+        let (Some(period), key) = (repeat, format!("{entry}.repeat")) else { return Ok(()) };
+        self.positive(&key, repeat, "s")?;
+        let value = format!("{period} s");
+        match until {
+            None => Err(self.wrong(&key, value, "repeats what never ends", &format!("add {entry}.until"))),
+            Some(until) if period < until - from => {
+                let why =
+                    format!("is shorter than the {} s from 'from' to 'until'", geom::Shown(until - from));
+                Err(self.wrong(&key, value, &why, "give a longer period, or an earlier 'until'"))
+            }
+            Some(_) => Ok(()),
+        }
+    }
+
     /// Every value of a scene that can be judged by itself.
     pub(crate) fn keys(&self, m: &SceneKeys) -> Result<()> {
         self.calculation(m)?;

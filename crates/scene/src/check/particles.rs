@@ -87,7 +87,16 @@ impl Check<'_> {
         }
         self.finite(&key("velocity"), &f.velocity, "m/s")?;
         self.within(&key("from"), f.from, 0.0, record::LATEST, "s")?;
-        self.until(&key("until"), f.until, f.from)
+        self.until(&key("until"), f.until, f.from)?;
+        self.repeat(entry, f.repeat, f.from, f.until)?;
+        match f.times {
+            Some(0) => Err(self.wrong(&key("times"), "0", "nothing would be inserted", "give at least 1")),
+            Some(n) if f.repeat.is_none() => {
+                let why = "says how often it opens, but not when";
+                Err(self.wrong(&key("times"), n, why, &format!("add {entry}.repeat, or take it out")))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// `[[outlet]]` and `[[inlet]]`.

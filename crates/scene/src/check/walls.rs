@@ -123,14 +123,16 @@ impl Check<'_> {
         for (k, motion) in list.iter().enumerate() {
             let key = if list.len() == 1 { entry.to_owned() } else { format!("{entry}.{k}") };
             self.motion(&key, motion)?;
-            let carried = motion.translate.is_some_and(|v| v != [0.0; 3]) && motion.until.is_none();
+            let endless = motion.until.is_none() || motion.repeat.is_some();
+            let carried = motion.translate.is_some_and(|v| v != [0.0; 3]) && endless;
             let turns = |m: &&Motion| {
                 m.rotate.is_some() || m.swing.is_some() || m.path.as_ref().is_some_and(|p| p.about.is_some())
             };
             if carried && list[k + 1..].iter().any(|m| turns(&m)) {
                 let why = "carries the wall ever farther from the axis of a later rotation, so that its speed has no bound";
-                let cure = "add until, or give the rotation before the translation: it then turns about an axis that is carried along";
-                return Err(self.wrong(&format!("{key}.translate"), "(without until)", why, cure));
+                let cure = "add until without repeat, or give the rotation before the translation: it then turns about an axis that is carried along";
+                let value = if motion.repeat.is_some() { "(with repeat)" } else { "(without until)" };
+                return Err(self.wrong(&format!("{key}.translate"), value, why, cure));
             }
         }
         Ok(())
@@ -163,6 +165,7 @@ impl Check<'_> {
             let cure = "give at most half of the time from `from` to `until`";
             return Err(self.wrong(&key("ramp"), format!("{} s", motion.ramp), why, cure));
         }
+        self.repeat(entry, motion.repeat, motion.from, motion.until)?;
         motion.rotate.as_ref().map_or(Ok(()), |r| self.rotate(&key("rotate"), r))?;
         if let Some(s) = &motion.swing {
             self.direction(&key("swing.about"), s.about, "such as [0, 1, 0]")?;

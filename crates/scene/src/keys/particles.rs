@@ -248,6 +248,11 @@ pub struct Insert {
     pub mass: Option<f64>,
     /// Number after which it closes; absent: none.
     pub count: Option<u64>,
+    /// Time after which it opens again [s]: `mass` and `count` are those of each time; absent: never.
+    #[serde(default, deserialize_with = "unit::seconds")]
+    pub repeat: Option<f64>,
+    /// How often it opens in all; absent: without end.
+    pub times: Option<u64>,
     /// Seed of the random numbers.
     #[serde(default)]
     pub seed: u64,

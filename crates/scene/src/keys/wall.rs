@@ -152,6 +152,9 @@ pub struct Motion {
     /// Time in which it starts, and in which it ends [s].
     #[serde(default, deserialize_with = "unit::seconds")]
     pub ramp: f64,
+    /// Time after which it starts again [s]; absent: never.
+    #[serde(default, deserialize_with = "unit::seconds")]
+    pub repeat: Option<f64>,
 }
 
 /// A swing about a fixed axis.

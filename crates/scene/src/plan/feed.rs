@@ -6,6 +6,7 @@ use super::insertion::Expected;
 use super::random::{generator, random_orientation};
 use super::section::Section;
 use super::total::Total;
+use super::windows::Windows;
 use crate::check::Check;
 use crate::error::Result;
 use crate::keys::Insert;
@@ -26,7 +27,8 @@ pub(super) struct Feed {
     pub velocity: Vec3,
     pub inserted: Inserted,
     rate: Rate,
-    until: f64,
+    windows: Windows,
+    /// Of the window that is open, or opens next.
     total: Total,
     time: f64,
     count: u32,
@@ -100,7 +102,7 @@ impl PlanBuilder<'_> {
             velocity,
             inserted,
             rate: entry.rate.map_or(Rate::Count(entry.rate_count.unwrap_or(0.0)), Rate::Mass),
-            until: entry.until.unwrap_or(f64::INFINITY),
+            windows: Windows::new(entry),
             total: Total::new(entry),
             time: entry.from,
             count: 0,
@@ -123,9 +125,10 @@ impl Feed {
         (self.section.zone().plane.point, self.velocity)
     }
 
-    /// Whether it comes through a place that another one comes through, at times when both are open.
+    /// Whether it comes through a place that another one comes through, at times when both are open or grains of the other are still on their way through it.
     pub(super) fn meets(&self, other: &Feed) -> bool {
-        let open = self.time < other.until && other.time < self.until;
+        let way = |feed: &Feed| feed.section.size(0) / feed.velocity.norm();
+        let open = self.windows.meet(&other.windows, way(self), way(other));
         let beside = |n: &Vec3| {
             let ((a, b), (c, d)) = (self.section.along(n), other.section.along(n));
             a < d && c < b
@@ -182,7 +185,15 @@ impl Feed {
     /// Time of the next particle [s]; `None` when it has ended.
     pub fn next_time(&self) -> Option<f64> {
         let next = || self.inserted.grading.next(&mut self.random.clone()).mass;
-        (self.time < self.until && self.total.has_room(next)).then_some(self.time)
+        (self.time < self.windows.until() && self.total.has_room(next)).then_some(self.time)
+    }
+
+    /// Turns to the next window when this one is over.
+    fn turn_over(&mut self) {
+        if self.next_time().is_none() && self.windows.advance() {
+            self.time = self.windows.from();
+            self.total.begin();
+        }
     }
 
     /// Particles that come until a time [s] since t = 0; members of clumps count one by one.
@@ -192,12 +203,11 @@ impl Feed {
             Rate::Mass(rate) => rate / mass,
             Rate::Count(rate) => rate,
         };
-        let open = (self.until.min(end) - self.time).max(0.0).min(self.total.expected(mass) / each);
         let rate = each * f64::from(self.inserted.ids);
+        let longest = self.total.expected(mass) / each;
         // The number grows while the insertion is open and stays afterwards.
-        let after = end - self.time - open;
-        let mean = if open > 0.0 { rate * open * (0.5 * open + after) / end } else { 0.0 };
-        Expected { all: rate * open, mean }
+        let open = self.windows.open(end, longest);
+        Expected { all: rate * open.time, mean: if open.time > 0.0 { rate * open.moment / end } else { 0.0 } }
     }
 
     /// A grain at a place across the flow.
@@ -210,6 +220,7 @@ impl Feed {
         };
         let id = self.first_id.wrapping_add(self.count);
         self.count += self.inserted.ids;
+        self.turn_over();
         let radius = grain.diameter / 2.0;
         let clump = self.inserted.clump.map(|c| EntryClump {
             shape: c.shape,

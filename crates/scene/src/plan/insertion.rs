@@ -149,13 +149,81 @@ mod tests {
         assert!((all.len() as f64 / expected - 1.0).abs() < 0.1, "{} of {expected}", all.len());
         // Open in the first half of the time: half of them in it, all of them behind it.
         assert!((there / expected - 0.75).abs() < 1e-12, "{there} of {expected} on average");
+        none_touch(&all);
+    }
+
+    fn none_touch(all: &[Entry]) {
         for (i, a) in all.iter().enumerate() {
             for b in &all[..i] {
                 assert!(a.time >= b.time);
                 let apart =
                     a.particle.position - b.particle.position - b.particle.velocity * (a.time - b.time);
-                assert!(apart.norm() >= a.particle.radius + b.particle.radius - 1e-12);
+                assert!(apart.norm() >= a.particle.radius + b.particle.radius - 1e-12, "{} s", a.time);
             }
+        }
+    }
+
+    /// Insertions of a text that holds all of their keys but material, shape and sizes.
+    fn several(entries: &[&str]) -> Result<Vec<Insertion>> {
+        let entry = |keys: &&str| {
+            format!(
+                "[[insert]]\nmaterial = \"m\"\nshape = \"cylinder:0,0,1,0,0,1.03,0.05\"\n\
+                 diameter = [0.01, 0.02]\n{keys}\n"
+            )
+        };
+        let head = "[[material]]\nname = \"m\"\ndensity = 1000\nyoung = 1e6\npoisson = 0.3\n";
+        let toml = head.to_owned() + &entries.iter().map(entry).collect::<String>();
+        let scene = Scene::new("s", toml, &[], Path::new(""))?;
+        let mut builder = PlanBuilder::new(&scene);
+        builder.insertions()?;
+        Ok(builder.insertions)
+    }
+
+    #[test]
+    fn two_that_follow_each_other_at_one_place_do_not_touch() {
+        let layer = |from: f64| {
+            format!("velocity = [0, 0, -1]\nrate = 0.8\nseed = {from}\nfrom = {from}\nuntil = {}", from + 1.0)
+        };
+        let mut found = several(&[&layer(0.0), &layer(1.0), &layer(2.0)]).unwrap();
+        assert_eq!(found.len(), 1, "one group");
+        let all: Vec<Entry> = std::iter::from_fn(|| found[0].next_entry().unwrap()).collect();
+        none_touch(&all);
+        // Another velocity while grains of the first are on their way is refused; a little later it is not.
+        let other = |from: &str| format!("velocity = [0, 0, -2]\nrate = 0.8\nfrom = {from}");
+        let message = several(&[&layer(0.0), &other("1.02")]).unwrap_err().to_string();
+        assert!(message.contains("insert.1.velocity") && message.contains("same place"), "{message}");
+        assert_eq!(several(&[&layer(0.0), &other("1.031")]).unwrap().len(), 2);
+    }
+
+    #[test]
+    fn an_insertion_that_repeats_inserts_its_mass_each_time() {
+        let coke =
+            "velocity = [0, 0, -1]\nrate = 0.8\nfrom = 0.5\nuntil = 1.5\nrepeat = 2\ntimes = 3\nmass = 0.2";
+        let ore =
+            "velocity = [0, 0, -1]\nrate = 0.8\nfrom = 1.5\nuntil = 2.5\nrepeat = 2\ntimes = 2\ncount = 30";
+        let mut found = several(&[coke, ore]).unwrap();
+        assert_eq!(found.len(), 1);
+        let expected = found[0].expected(100.0).all;
+        let all: Vec<Entry> = std::iter::from_fn(|| found[0].next_entry().unwrap()).collect();
+        none_touch(&all);
+        let window = |from: f64| all.iter().filter(move |e| (from..from + 1.0).contains(&e.time));
+        for k in 0..3 {
+            let mass: f64 =
+                window(0.5 + 2.0 * f64::from(k)).map(|e| 1000.0 * volume(e.particle.radius)).sum();
+            assert!((mass - 0.2).abs() <= 1000.0 * volume(0.01) / 2.0, "{mass} kg");
+        }
+        let ores = [1.5, 3.5, 5.5].map(|from| window(from).count());
+        assert_eq!(ores, [30, 30, 0]);
+        assert!((expected / all.len() as f64 - 1.0).abs() < 0.1, "{expected} of {}", all.len());
+        let wrong = [
+            ("until = 1\nrepeat = 0.5", "insert.0.repeat = 0.5 s: is shorter than the 1 s"),
+            ("repeat = 2", "repeats what never ends; add insert.0.until"),
+            ("times = 2", "add insert.0.repeat"),
+            ("until = 1\nrepeat = 2\ntimes = 0", "insert.0.times = 0"),
+        ];
+        for (keys, part) in wrong {
+            let message = several(&[&format!("velocity = [0, 0, -1]\nrate = 0.8\n{keys}")]).unwrap_err();
+            assert!(message.to_string().contains(part), "{keys}: {message}");
         }
     }
 

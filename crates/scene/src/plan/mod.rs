@@ -36,6 +36,7 @@ mod total;
 mod wall_contacts;
 mod walls;
 mod warnings;
+mod windows;
 mod zones;
 
 pub use below::Below;

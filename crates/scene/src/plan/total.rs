@@ -23,6 +23,11 @@ impl Total {
         self.count.is_none_or(|most| count < most) && self.mass.is_none_or(|most| mass + next() / 2.0 <= most)
     }
 
+    /// Begins anew.
+    pub(super) fn begin(&mut self) {
+        self.inserted = (0, 0.0);
+    }
+
     /// One of a mass [kg] was inserted.
     pub(super) fn add(&mut self, mass: f64) {
         self.inserted = (self.inserted.0 + 1, self.inserted.1 + mass);

@@ -258,6 +258,7 @@ fn motion(entry: &Motion) -> setup::Motion {
     }
     (motion.from, motion.until) = (entry.from, entry.until.unwrap_or(f64::INFINITY));
     motion.ramp = entry.ramp;
+    motion.period = entry.repeat.unwrap_or(f64::INFINITY);
     motion.velocity = Vec3::from(entry.translate.unwrap_or_default());
     if let Some(v) = &entry.vibrate {
         motion.amplitude = Vec3::from(v.amplitude);

@@ -1,9 +1,9 @@
 //! The metadata records of a run that an inlet stream passes on.
 
-use super::Replay;
+use super::{Passage, Replay};
 use dem::setup::{Zone, ZoneMotion};
 use geom::{Shown, Vec3};
-use record::metadata::{BONDS, CLUMPS, INLET, MATERIALS, OUTLETS, REPLAY, SCENE, SIZES};
+use record::metadata::{BONDS, CLUMPS, INLET, MATERIALS, OUTLETS, REPLAY, SCENE, SIZES, TIME};
 use record::{ClumpRecord, Map, Sizes};
 use scene::input::ZoneRecord;
 use scene::{Result, SceneError};
@@ -25,6 +25,8 @@ pub struct Head {
     pub bonds: Map,
     /// The zone of the inlet.
     pub zone: ZoneRecord,
+    /// Time step of the run [s], where passages are counted in steps.
+    pub step: f64,
 }
 
 impl Head {
@@ -76,8 +78,22 @@ impl Head {
         let materials = records.remove(MATERIALS).ok_or_else(|| no_run(MATERIALS))?;
         let bonds = records.remove(BONDS).unwrap_or_default();
         let zone = ZoneRecord { zone, ..recorded };
-        Ok(Head { materials, sizes, widest, clumps, members, bonds, zone })
+        let step = match what.passage {
+            Passage::Time => 0.0,
+            Passage::Steps => step(name, records.remove(TIME))?,
+        };
+        Ok(Head { materials, sizes, widest, clumps, members, bonds, zone, step })
     }
+}
+
+/// The time step of a run [s].
+fn step(name: &str, times: Option<Map>) -> Result<f64> {
+    let dt =
+        times.and_then(|times| times.get("dt")?.parse().ok()).filter(|dt: &f64| *dt > 0.0 && dt.is_finite());
+    dt.ok_or_else(|| {
+        let cure = "leave --passage steps out, or run the upstream stage again";
+        SceneError::file(name, "has no record of its time step, which --passage steps counts", cure)
+    })
 }
 
 /// The outlet of a run with this index.

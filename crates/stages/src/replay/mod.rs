@@ -45,6 +45,8 @@ pub struct Replay {
     pub outlet: u16,
     /// Where intervals and positions are those that were recorded.
     pub intervals: Intervals,
+    /// How the times of passages are counted.
+    pub passage: Passage,
     /// Motion in the zone; absent: that of the run.
     pub motion: Option<ZoneMotion>,
     /// T of [`Intervals::Both`] [s]; absent: what the first one needs for the length of the zone.
@@ -74,6 +76,16 @@ pub enum Intervals {
     Both,
 }
 
+/// How the time at which a particle passes the storage plane is counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Passage {
+    /// As the instant within its step.
+    #[default]
+    Time,
+    /// In whole time steps of the run, to the end of the step in which it passes.
+    Steps,
+}
+
 impl Replay {
     /// Whether the record at a time [s] is replayed.
     fn holds(&self, time: f64) -> bool {
@@ -87,6 +99,7 @@ impl Replay {
             (self.length.is_some(), "--length"),
             (self.ahead.is_some(), "--ahead"),
             (self.intervals == Intervals::Generation, "--intervals generation"),
+            (self.passage == Passage::Steps, "--passage steps"),
             (self.copies.count > 1, "--copies"),
             (self.repeat > 1, "--repeat"),
             (self.first_id.is_some(), "--first-id"),
@@ -101,6 +114,9 @@ impl Replay {
             ("copies".to_owned(), copies.count.to_string()),
             ("replays".to_owned(), self.repeat.max(1).to_string()),
         ]);
+        if self.passage == Passage::Steps {
+            map.insert("passage".to_owned(), "whole time steps of the run".to_owned());
+        }
         if copies.count > 1 {
             let what = "superposed copies of one record: the rate is scaled, but grains do not flow as they would at that rate";
             map.insert("note".to_owned(), what.to_owned());

@@ -5,7 +5,7 @@ use super::head::Head;
 use super::merge::Merge;
 use super::pairs::Pairs;
 use super::queue::{Generated, Origin, Partners, Queue};
-use super::{FAR, Replay, Replayed};
+use super::{FAR, Passage, Replay, Replayed};
 use crate::StageError;
 use crate::order::Order;
 use crate::outlet::contact::{self, ContactRow};
@@ -194,6 +194,9 @@ impl<'a, W: Write> Replayer<'a, W> {
     fn rebase(&mut self, row: &mut CrossingRow) {
         if let Some(frame) = &self.what.frame {
             frame.row(row);
+        }
+        if self.what.passage == Passage::Steps {
+            row.time = self.head.step * (row.time / self.head.step).ceil();
         }
         row.time -= *self.start.get_or_insert(row.time);
         row.outlet = 0;

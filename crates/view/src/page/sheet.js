@@ -1,7 +1,15 @@
 // Thin walls: planes and meshes, sent to the graphics card once and moved there.
 
 // The progress of a motion at a time, as crates/geom/src/motion.rs has it.
+// How often it has run before, and its progress in one run and in a whole one.
 function progressOf(motion, now) {
+  const { from = 0, period } = motion;
+  const before = period && now > from ? Math.floor((now - from) / period) : 0;
+  const whole = before > 0 ? progressOnce(motion, motion.until) : 0;
+  return { before, whole, once: progressOnce(motion, before > 0 ? now - before * period : now) };
+}
+
+function progressOnce(motion, now) {
   const [from, until, ramp] = [motion.from ?? 0, motion.until ?? Infinity, motion.ramp ?? 0];
   const time = Math.min(Math.max(now, from), until) - from;
   const left = until - from - time;
@@ -39,13 +47,15 @@ function poseOf(motion, origin, now) {
   let turn = [1, 0, 0, 0, 1, 0, 0, 0, 1];
   let place = [...origin];
   for (const part of motion ? [motion, ...(motion.then ?? [])] : []) {
-    const time = progressOf(part, now);
+    const { before, whole, once } = progressOf(part, now);
+    const time = before * whole + once;
     let own = turnBy(part.turn, Math.hypot(...part.turn) * time);
     if (part.swing) {
       const { amplitude, frequency } = part.swing;
       own = turnedAll(turnBy(amplitude, Math.hypot(...amplitude) * Math.sin(2 * Math.PI * frequency * time)), own);
     }
-    const row = part.path ? rowAt(part.path, time) : [0, 0, 0, 0, 0];
+    const end = part.path && before > 0 ? rowAt(part.path, whole) : [0, 0, 0, 0, 0];
+    const row = part.path ? rowAt(part.path, once).map((value, k) => before * end[k] + value) : end;
     if (part.path) own = turnedAll(turnBy(part.path.about, row[4]), own);
     const sway = Math.sin(2 * Math.PI * part.frequency * time);
     const arm = turned(own, place.map((p, k) => p - part.through[k]));

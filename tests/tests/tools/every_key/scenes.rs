@@ -129,6 +129,8 @@ velocity = [0, 0, -1]
 rate = 0.5
 from = 0.0001
 until = 0.0015
+repeat = "2 ms"
+times = 2
 mass = 0.01
 seed = 1
 [[insert]]
@@ -163,7 +165,7 @@ mesh = "tetra.ply"
 material = "steel"
 motion = [
     { swing = { about = [0, 1, 0], through = [0.1, 0, 0], amplitude = "15 deg", frequency = 2 }, ramp = 0.0005 },
-    { path = { source = "path.csv", about = [0, 0, 1], through = [0, 0, 0] }, from = 0.0005 },
+    { path = { source = "path.csv", about = [0, 0, 1], through = [0, 0, 0] }, from = 0.0005, until = 0.001, repeat = 0.001 },
 ]
 [[wall]]
 solid = "cylinder:0.8,0.2,0.1,0.8,0.2,0.2,0.05"
