@@ -5,7 +5,7 @@
 //! ```
 
 use crate::Vec3;
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Matrix2, Matrix6, Vector6};
 
 /// w as a quadratic of u and v.
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +48,19 @@ impl Quadratic {
         (self.coefficients.into(), self.scale)
     }
 
+    /// The larger of the two principal curvatures where u = v = 0, without its sign [1/m].
+    pub fn bend(&self) -> f64 {
+        let [_, zx, zy, xx, xy, yy]: [f64; 6] = self.coefficients.into();
+        let (zx, zy, square) = (zx / self.scale, zy / self.scale, self.scale * self.scale);
+        let first = Matrix2::new(1.0 + zx * zx, zx * zy, zx * zy, 1.0 + zy * zy);
+        let second = Matrix2::new(2.0 * xx, xy, xy, 2.0 * yy) / (square * first.determinant().sqrt());
+        // The determinant of the first form is at least 1.
+        let Some(inverse) = first.try_inverse() else { return 0.0 };
+        let shape = inverse * second;
+        let (mean, gauss) = (0.5 * shape.trace(), shape.determinant());
+        mean.abs() + (mean * mean - gauss).max(0.0).sqrt()
+    }
+
     /// Area of the surface over an area of the plane [–].
     pub fn stretch(&self, u: f64, v: f64) -> f64 {
         let (c, u, v) = (&self.coefficients, u / self.scale, v / self.scale);
@@ -82,6 +95,19 @@ mod tests {
         assert!(fit.rms < 1e-6 && (fit.height(0.1, 0.2) - truth(0.1, 0.2)).abs() < 1e-6);
         let slope = (1.0f64 + 0.1 * 0.1 + 0.2 * 0.2).sqrt();
         assert!((fit.stretch(0.0, 0.0) - slope).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_cylinder_and_a_ball_bend_as_their_radius_says_also_seen_from_aside() {
+        let (radius, tilt) = (40.0f64, 0.1f64);
+        for ball in [0.0, 1.0] {
+            let height = |u: f64, v: f64| tilt * u + (radius * radius - v * v - ball * u * u).sqrt() - radius;
+            let fit = Quadratic::fit(&ring(height)).unwrap();
+            // Tilting a paraboloid by shearing changes its curvature along u by 1 + tilt² in a power; of a cylinder along u it does so across only.
+            let bend = fit.bend() * radius;
+            assert!((bend - 1.0).abs() < 0.02, "{bend}");
+        }
+        assert!(Quadratic::fit(&ring(|u, v| 0.3 * u - 0.1 * v)).unwrap().bend() < 1e-9);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Builds a wall: neighbours, radii, placement, leak check.
 
+use crate::bent;
 use crate::deep::{self, DeepDents};
 use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
 use crate::sheets::Sheets;
@@ -47,6 +48,8 @@ pub struct WallReport {
     /// How far the least and the most of the wall stands in front of the points [m]: the radii where the centres are on the points, `None` where the
     /// surface is.
     pub in_front: Option<[f64; 2]>,
+    /// A radius of curvature that a quarter of the surface falls below [m], where the wall stands in front of it.
+    pub curvature_radius: Option<f64>,
     /// How far the dents are from those asked for.
     pub changes: Changes,
     /// The pairs of which `changes` tells, where they were asked for.
@@ -89,6 +92,7 @@ pub fn build(
     let asked = zeta.unwrap_or_else(|| vec![zeta_all; radii.len()]);
     let changes = solve::changes(&found.pairs, &found.lengths, &asked, &radii);
     let centres = place(&cells.points, &stars, &found.pairs, &radii, settings)?;
+    let stands_in_front = settings.placement == Placement::Centre && !settings.of_drawing;
     let mut report = WallReport {
         spheres: radii.len(),
         spacing,
@@ -96,7 +100,8 @@ pub fn build(
         roughness: zeta_all,
         radius_range: [range(&radii)[0], radii.iter().sum::<f64>() / radii.len() as f64, range(&radii)[1]],
         width: width(points),
-        in_front: (settings.placement == Placement::Centre && !settings.of_drawing).then(|| range(&radii)),
+        curvature_radius: if stands_in_front { bent::radius(&cells, spacing) } else { None },
+        in_front: stands_in_front.then(|| range(&radii)),
         changes,
         changed: if settings.list_changes { list(&cells, &found, &asked, &radii) } else { Vec::new() },
         deep_dents: if is_asked && !settings.of_drawing {
@@ -175,7 +180,11 @@ fn check(points: &[Vec3], settings: &WallSettings) -> Result<(), WallError> {
         (Radius::Given(r), _, _) if !positive(r) => Err(WallError::BadRadius(r)),
         (_, Some(d), _) if !positive(d) => Err(WallError::BadParticle(d)),
         (_, _, Some(f)) if !positive(f.norm()) => Err(WallError::BadFacing { x: f.x, y: f.y, z: f.z }),
-        (_, _, None) if settings.placement == Placement::Surface && settings.flow_at.is_none() => {
+        (_, _, None)
+            if settings.placement == Placement::Surface
+                && settings.flow_at.is_none()
+                && settings.seen_from.is_empty() =>
+        {
             Err(WallError::NoFacing)
         }
         _ => Ok(()),
@@ -268,7 +277,8 @@ fn place(
         return Ok(points.to_vec());
     }
     let towards = settings.facing.map(normals::Flow::Towards);
-    let flow = settings.flow_at.map(normals::Flow::At).or(towards).ok_or(WallError::NoFacing)?;
+    let seen = (!settings.seen_from.is_empty()).then(|| normals::Flow::SeenFrom(&settings.seen_from));
+    let flow = settings.flow_at.map(normals::Flow::At).or(towards).or(seen).ok_or(WallError::NoFacing)?;
     let normals = normals::oriented(points, &stars.normals, pairs, flow);
     Ok(points.iter().zip(&normals).zip(radii).map(|((p, n), r)| p - n * *r).collect())
 }

@@ -4,6 +4,7 @@
 //! their distances P and the roughness ζ (see [`equation`]).
 
 pub mod attributes;
+mod bent;
 mod build;
 pub mod deep;
 pub mod drawn;
@@ -63,7 +64,7 @@ pub enum Placement {
 }
 
 /// What is wanted.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct WallSettings {
     /// Radii.
     pub radius: Radius,
@@ -75,6 +76,8 @@ pub struct WallSettings {
     pub facing: Option<Vec3>,
     /// A position in the flow [m], instead of a direction.
     pub flow_at: Option<Vec3>,
+    /// Where scanners stood [m], which saw the side of the flow; they count where neither direction nor position is given.
+    pub seen_from: Vec<Vec3>,
     /// Diameter of the smallest particle [m]: checks gaps and sizes.
     pub smallest_particle: Option<f64>,
     /// Diameter of the largest particle [m]: checks sizes.

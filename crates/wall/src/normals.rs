@@ -11,26 +11,34 @@ use std::collections::BinaryHeap;
 
 /// Where the flow is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Flow {
+pub enum Flow<'a> {
     /// In this direction from the surface.
     Towards(Vec3),
     /// Here [m], seen from every point nearest to it.
     At(Vec3),
+    /// On the side that is seen from these viewpoints [m]: a piece begins where one of them looks at it most squarely, since a rim is seen from aside.
+    SeenFrom(&'a [Vec3]),
 }
 
-impl Flow {
+impl Flow<'_> {
     /// How well a point is fit to begin with: more is better.
     fn fitness(&self, point: &Vec3, normal: &Vec3) -> f64 {
         match self {
             Flow::Towards(facing) => normal.dot(facing).abs(),
             Flow::At(position) => -(position - point).norm(),
+            Flow::SeenFrom(_) => normal.dot(&self.seen_from(point, normal)).abs(),
         }
     }
 
-    fn seen_from(&self, point: &Vec3) -> Vec3 {
+    fn seen_from(&self, point: &Vec3, normal: &Vec3) -> Vec3 {
         match self {
             Flow::Towards(facing) => *facing,
             Flow::At(position) => position - point,
+            Flow::SeenFrom(eyes) => {
+                let sights = eyes.iter().filter_map(|eye| (eye - point).try_normalize(0.0));
+                let squarely = |sight: &Vec3| normal.dot(sight).abs();
+                sights.max_by(|a, b| squarely(a).total_cmp(&squarely(b))).unwrap_or_else(Vec3::zeros)
+            }
         }
     }
 }
@@ -63,7 +71,7 @@ impl Ord for Step {
 }
 
 /// Normals of points [m] turned to the side of the flow.
-pub fn oriented(points: &[Vec3], normals: &[Vec3], pairs: &[(u32, u32)], flow: Flow) -> Vec<Vec3> {
+pub fn oriented(points: &[Vec3], normals: &[Vec3], pairs: &[(u32, u32)], flow: Flow<'_>) -> Vec<Vec3> {
     let mut links = vec![Vec::new(); normals.len()];
     for &(i, j) in pairs {
         links[i as usize].push(j);
@@ -79,7 +87,7 @@ pub fn oriented(points: &[Vec3], normals: &[Vec3], pairs: &[(u32, u32)], flow: F
         if done[start as usize] {
             continue;
         }
-        turn(&mut turned[start as usize], &flow.seen_from(&points[start as usize]));
+        turn(&mut turned[start as usize], &flow.seen_from(&points[start as usize], &normals[start as usize]));
         let mut steps = BinaryHeap::from([Step { alike: 1.0, to: Reverse(start), from: Reverse(start) }]);
         while let Some(Step { to: Reverse(i), from: Reverse(before), .. }) = steps.pop() {
             if std::mem::replace(&mut done[i as usize], true) {

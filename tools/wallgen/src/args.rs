@@ -31,7 +31,7 @@ pub struct Args {
     /// Which average of the neighbour distances the radii follow from (default: mean)
     #[arg(long, value_enum)]
     representative: Option<Middle>,
-    /// Which point of a sphere lies on the scanned point: its surface on the flow side, or its centre (default: surface where the flow side is known, by --facing, --flow-at or a drawing; else centre)
+    /// Which point of a sphere lies on the scanned point: its surface on the flow side, or its centre (default: surface where the flow side is known, by --facing, --flow-at, the viewpoints of the cloud or a drawing; else centre)
     #[arg(long, value_enum)]
     place: Option<Place>,
     /// Direction to the flow side: the surfaces of the spheres go through the points
@@ -116,11 +116,6 @@ impl Args {
         let placement = match self.place {
             // The spheres of a drawing are where they belong.
             _ if self.is_drawing() => Placement::Centre,
-            Some(Place::Surface) if !has_flow => {
-                return Err(cli::usage(
-                    "--place surface: the flow side is needed; add --facing x,y,z, or --flow-at x,y,z",
-                ));
-            }
             Some(Place::Surface) => Placement::Surface,
             None if has_flow => Placement::Surface,
             Some(Place::Centre) | None => Placement::Centre,
@@ -135,12 +130,37 @@ impl Args {
             placement,
             facing: self.facing,
             flow_at: self.flow_at,
+            seen_from: Vec::new(),
             smallest_particle: self.smallest_particle,
             largest_particle: self.largest_particle,
             gaps: self.gaps,
             of_drawing: self.is_drawing(),
             list_changes: self.changes.is_some(),
         })
+    }
+
+    /// Takes the side of the flow from the viewpoints of the cloud [m] where no option gives it.
+    ///
+    /// # Errors
+    /// Surfaces are to be on the points, and no side is known.
+    pub fn look(
+        &self,
+        settings: &mut WallSettings,
+        viewpoints: impl Iterator<Item = Vec3>,
+    ) -> anyhow::Result<()> {
+        let wants = !self.is_drawing() && !matches!(self.place, Some(Place::Centre));
+        if !wants || self.facing.or(self.flow_at).is_some() {
+            return Ok(());
+        }
+        settings.seen_from = viewpoints.collect();
+        if !settings.seen_from.is_empty() {
+            settings.placement = Placement::Surface;
+        } else if matches!(self.place, Some(Place::Surface)) {
+            return Err(cli::usage(
+                "--place surface: the flow side is needed, and the cloud states no viewpoint; add --facing x,y,z, or --flow-at x,y,z",
+            ));
+        }
+        Ok(())
     }
 
     /// Whether a drawing stands for the whole wall, and no cloud is read.

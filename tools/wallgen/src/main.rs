@@ -21,10 +21,11 @@ fn main() -> ExitCode {
 fn wallgen(args: Args) -> anyhow::Result<Report> {
     check_ending(&args.output.to)?;
     args.check_used()?;
-    let settings = args.settings()?;
+    let mut settings = args.settings()?;
     let mut regions = args.regions()?;
     let WallPoints { cloud, name, hashes, drawn, added } = surface::read(&args, &regions, &settings)?;
     cloud.check_reach().with_context(|| name.clone())?;
+    args.look(&mut settings, cloud.viewpoints())?;
     let property = |name: &str| cloud.attributes.get(name).map(|v| (0..v.len()).map(|i| v.get(i)).collect());
     let wear = regions.measure(&cloud.points, &property).with_context(|| name.clone())?;
     let (wall, report) = build(&cloud.points, &regions, &settings).with_context(|| name)?;
@@ -49,6 +50,7 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
     far_in_front(&report).iter().for_each(|w| cli::warn(w));
     let words = summary(&report, &settings, drawn.as_ref())
         + &in_front(&report)
+        + &as_seen(&settings)
         + &of_drawing(added)
         + &in_steps(&regions)
         + &passes(&report, &settings);
@@ -72,18 +74,26 @@ fn as_cloud(mut cloud: cloud::Cloud, wall: &Wall, regions: &Regions) -> anyhow::
 
 /// Share of the width of a cloud above which a wall that stands so far in front of its points has another shape [–].
 const IN_FRONT: f64 = 0.02;
+/// The same of the radius of curvature: a pipe is then narrower by this share.
+const OF_RADIUS: f64 = 0.05;
 
 /// A warning where the wall stands far in front of the points, or in steps.
 fn far_in_front(report: &WallReport) -> Option<String> {
-    let [least, most] = report.in_front.filter(|[_, most]| *most > IN_FRONT * report.width)?;
+    let radius = report.curvature_radius.unwrap_or(f64::INFINITY);
+    let is_far = |most: f64| most > IN_FRONT * report.width || most > OF_RADIUS * radius;
+    let [least, most] = report.in_front.filter(|[_, most]| is_far(*most))?;
     let step = match most - least > 0.5 * most {
         true => format!(", and {} m less where it is rougher", Shown(most - least)),
         false => String::new(),
     };
     let larger = if most > report.width { "; is it in millimetres?" } else { "" };
+    let bends = match most > OF_RADIUS * radius {
+        true => format!(", and a quarter of it bends with a radius below {} m", Shown(radius)),
+        false => String::new(),
+    };
     Some(format!(
-        "the centres of the spheres are on the points, so the wall stands {} m in front of them{step}; the cloud is {} m wide{larger}: give the flow side, \
-         --facing x,y,z or --flow-at x,y,z, and the wall goes through the points",
+        "the centres of the spheres are on the points, so the wall stands {} m in front of them{step}; the cloud is {} m wide{bends}{larger}: give the flow \
+         side, --facing x,y,z or --flow-at x,y,z, and the wall goes through the points",
         Shown(most),
         Shown(report.width)
     ))
@@ -99,6 +109,17 @@ fn in_front(report: &WallReport) -> String {
             format!("; the wall stands {} to {} m in front of the points", Shown(least), Shown(most))
         }
         None => String::new(),
+    }
+}
+
+/// Where the flow side is known from.
+fn as_seen(settings: &WallSettings) -> String {
+    match settings.seen_from.len() {
+        0 => String::new(),
+        n => format!(
+            "; surfaces on the points, on the side that {} of the cloud saw",
+            geom::counted(n, "viewpoint")
+        ),
     }
 }
 

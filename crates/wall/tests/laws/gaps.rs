@@ -29,7 +29,7 @@ fn the_widest_gap_of_a_square_lattice_is_its_diagonal_less_two_radii() {
     let gap = 0.01 * 2f64.sqrt() - 0.012;
     assert!((report.widest_gap.unwrap().diameter - gap).abs() < 1e-12);
     assert!(report.leaks > 0 && report.warnings[0].contains("leaks"), "{:?}", report.warnings);
-    let settings = WallSettings { smallest_particle: Some(0.0022), ..settings };
+    let settings = WallSettings { smallest_particle: Some(0.0022), ..settings.clone() };
     let (_, report) = build(&points, &everywhere(0.001), &settings).unwrap();
     assert_eq!((report.leaks, report.warnings.len()), (0, 0));
 }
