@@ -2,7 +2,8 @@
 //!
 //! Sliding work W = Σ |F_t · slip| is what Archard's law (1953, J. Appl. Phys. 24, DOI 10.1063/1.1721448) turns into a
 //! worn volume, k W / (μ H). A contact belongs to the wall sphere whose surface is nearest to its point, wherever the
-//! sphere is at that time, or to the cube of space it lies in; the area of a cube is taken as the square of its side,
+//! sphere is at that time, or to the cube of space it lies in. A sphere is listed where it was when the run began, so that the map of a
+//! wall that moves is one of its body; the area of a cube is taken as the square of its side,
 //! which is that of a flat wall along a face of it.
 
 use crate::cells::cell_of;
@@ -46,6 +47,8 @@ pub struct Wear {
     by_sphere: BTreeMap<usize, WallLoad>,
     by_cell: BTreeMap<[i64; 3], WallLoad>,
     near: Option<NearSpheres>,
+    /// Wall spheres as the run began with them [m].
+    home: Vec<Vec3>,
     frames: u64,
     contact_frames: u64,
     elsewhere: u64,
@@ -71,6 +74,7 @@ impl Wear {
             by_sphere: BTreeMap::new(),
             by_cell: BTreeMap::new(),
             near: None,
+            home: Vec::new(),
             frames: 0,
             contact_frames: 0,
             elsewhere: 0,
@@ -153,6 +157,9 @@ impl Observer for Wear {
 
     fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Contacts(contacts) = message else { return Ok(()) };
+        if self.contact_frames == 0 {
+            self.home.clone_from(&run.spheres.position);
+        }
         self.contact_frames += 1;
         if !self.what.holds(run, contacts.time) {
             return Ok(());
@@ -178,11 +185,11 @@ impl Observer for Wear {
         let side = self.cell.unwrap_or(f64::NAN);
         let centre = |key: &[i64; 3]| Vec3::from(key.map(|k| (k as f64 + 0.5) * side));
         rows.extend(self.by_cell.iter().map(|(key, b)| self.row(centre(key), side, side * side, b)));
-        for (k, b) in &self.by_sphere {
-            if let (Some(position), Some(r)) = (run.spheres.position.get(*k), run.spheres.radius.get(*k)) {
-                // What a sphere stands for of a wall is not known here.
-                rows.push(self.row(*position, *r, f64::NAN, b));
-            }
+        let spheres = if self.cell.is_none() { &self.home[..] } else { &[] };
+        for (k, (position, radius)) in spheres.iter().zip(&run.spheres.radius).enumerate() {
+            let load = self.by_sphere.get(&k).copied().unwrap_or_default();
+            // What a sphere stands for of a wall is not known here.
+            rows.push(self.row(*position, *radius, f64::NAN, &load));
         }
         let work: f64 = rows.iter().map(|r| r[7]).sum();
         Ok(Summary::default()

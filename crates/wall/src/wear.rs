@@ -5,6 +5,7 @@
 //! [wear]
 //! table = "wear.csv"            # beside this file
 //! measured = "wear"             # a property of the cloud; or: drawing = "new.stl", or: value = 0.004
+//! run = "run-wear.csv"          # if given, `measured` is a column of it: what `dem-measure --wear` found
 //! from = [0, 0, 0]              # position [m]: distance from here …
 //! along = [1, 0, 0]             # … in this direction
 //! ```
@@ -16,10 +17,10 @@
 //! ```
 //!
 //! Between the entries ζ is linear in both; beyond the table the value at its edge is used, and the report counts these points. With a
-//! drawing, the wear is the distance of a point from the drawn surface [m].
+//! drawing, the wear is the distance of a point from the drawn surface [m]; with a run, that of the nearest wall sphere.
 
 use geom::mesh::{TriMesh, closest_point};
-use geom::{Boxes, Vec3};
+use geom::{Boxes, Grid, Vec3};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -38,6 +39,10 @@ pub enum WearError {
     File { file: String, why: String },
     #[error("wear: {file}: line {line}: {what}: '{text}'")]
     Line { file: String, line: usize, what: &'static str, text: String },
+    #[error(
+        "wear: run = \"{0}\": its column is not named: add measured = \"sliding_work\", and leave drawing and value out"
+    )]
+    RunColumn(String),
     #[error("wear: value {0}: must be finite")]
     Value(f64),
     #[error(
@@ -56,6 +61,7 @@ pub enum WearError {
 pub(crate) struct Section {
     table: String,
     measured: Option<String>,
+    run: Option<String>,
     drawing: Option<String>,
     value: Option<f64>,
     #[serde(default)]
@@ -66,8 +72,16 @@ pub(crate) struct Section {
 #[derive(Debug, Clone)]
 enum WearSource {
     Property(String),
+    Run(Places),
     Drawing(TriMesh),
     Value(f64),
+}
+
+/// What was measured at places [m].
+#[derive(Debug, Clone)]
+struct Places {
+    at: Vec<Vec3>,
+    wears: Vec<f64>,
 }
 
 /// A table, and where its two indices come from.
@@ -113,7 +127,11 @@ impl Wear {
         let given = [section.measured.is_some(), section.drawing.is_some(), section.value.is_some()];
         let given = given.iter().filter(|g| **g).count();
         let source = match (section.measured, section.drawing, section.value) {
-            (Some(name), None, None) => WearSource::Property(name),
+            (Some(column), None, None) => match section.run {
+                Some(file) => WearSource::Run(Places::read(&file, &column, text)?),
+                None => WearSource::Property(column),
+            },
+            _ if section.run.is_some() => return Err(WearError::RunColumn(section.run.unwrap_or_default())),
             (None, Some(file), None) => {
                 WearSource::Drawing(mesh(&file).map_err(|why| WearError::File { file: file.clone(), why })?)
             }
@@ -171,6 +189,7 @@ impl Wear {
             WearSource::Property(name) => property(name)
                 .filter(|column| column.len() == points.len())
                 .ok_or_else(|| WearError::NoProperty(name.clone())),
+            WearSource::Run(places) => Ok(places.nearest(points)),
             WearSource::Drawing(mesh) => Ok(distances(points, mesh)),
         }
     }
@@ -183,6 +202,65 @@ impl Wear {
             line[column] * (1.0 - s) + line[next] * s
         };
         along(row) * (1.0 - t) + along((row + 1).min(self.table.roughness.len() - 1)) * t
+    }
+}
+
+impl Places {
+    /// The places of a table with the columns x, y, z [m], and this one.
+    fn read(file: &str, column: &str, text: Load<String>) -> Result<Places, WearError> {
+        let wrong = |why: String| WearError::File { file: file.to_owned(), why };
+        let text = text(file).map_err(wrong)?;
+        let mut lines = (1..).zip(text.lines()).filter(|(_, l)| !l.trim().is_empty());
+        let head = lines.next().map_or("", |(_, head)| head);
+        // "x [m]" is x.
+        let names: Vec<&str> = head.split(',').map(|n| n.split('[').next().unwrap_or(n).trim()).collect();
+        let find = |name: &str| {
+            let missing =
+                || wrong(format!("has no column '{name}': give a table that dem-measure --wear wrote"));
+            names.iter().position(|n| *n == name).ok_or_else(missing)
+        };
+        let columns = [find("x")?, find("y")?, find("z")?, find(column)?];
+        let (mut at, mut wears) = (Vec::new(), Vec::new());
+        for (line, row) in lines {
+            let cells: Vec<&str> = row.split(',').map(str::trim).collect();
+            let numbers =
+                columns.map(|k| cells.get(k).and_then(|c| c.parse::<f64>().ok()).filter(|x| x.is_finite()));
+            let [Some(x), Some(y), Some(z), Some(wear)] = numbers else {
+                let (file, what) = (file.to_owned(), "a line has a place and a wear, not");
+                return Err(WearError::Line { file, line, what, text: row.chars().take(60).collect() });
+            };
+            at.push(Vec3::new(x, y, z));
+            wears.push(wear);
+        }
+        if at.is_empty() {
+            Err(wrong("has no line below its names".to_owned()))
+        } else {
+            Ok(Places { at, wears })
+        }
+    }
+
+    /// The wear at the place nearest to each point [m].
+    fn nearest(&self, points: &[Vec3]) -> Vec<f64> {
+        let (low, high) = geom::grid::bounds(&self.at);
+        let first = ((high - low).norm() / (self.at.len() as f64).sqrt()).max(1e-9);
+        let grid = Grid::new(&self.at, first);
+        let wear = |p: &Vec3| {
+            let apart = |k: &u32| (self.at[*k as usize] - p).norm_squared();
+            // From outside of their box all of them are at most this far.
+            let most = (p - 0.5 * (low + high)).norm() + (high - low).norm() + first;
+            let mut reach = first;
+            loop {
+                let near = grid
+                    .within(&self.at, *p, reach)
+                    .min_by(|a, b| apart(a).total_cmp(&apart(b)).then(a.cmp(b)));
+                match near {
+                    Some(k) => return self.wears[k as usize],
+                    None if reach > most => return f64::NAN,
+                    None => reach *= 2.0,
+                }
+            }
+        };
+        points.par_iter().map(wear).collect()
     }
 }
 
@@ -311,6 +389,30 @@ mod tests {
         assert!((zeta[0] - 2e-3).abs() < 1e-12 && (zeta[1] - 1e-3).abs() < 1e-12, "{zeta:?}");
         let (zeta, _) = wear("value = 10").unwrap().roughness(&points, &|_| None, None).unwrap();
         assert_eq!(zeta, [3e-3, 3e-3]);
+    }
+
+    #[test]
+    fn wear_is_that_of_a_run_at_the_nearest_of_its_places() {
+        let csv = "x [m],y [m],z [m],radius [m],sliding_work [J]\n1,0,0,0.1,0\n2,0,0,0.1,10\n2,5,0,0.1,2.5\n";
+        let of = |keys: &str| {
+            let section =
+                toml::from_str(&format!("table = 't.csv'\nalong = [1, 0, 0]\nfrom = [1, 0, 0]\n{keys}"));
+            let text = |file: &str| Ok(if file == "t.csv" { TABLE } else { csv }.to_owned());
+            Wear::new(section.unwrap(), &text, &|_| Err("no drawing".to_owned()))
+        };
+        let wear = of("run = 'r.csv'\nmeasured = 'sliding_work'").unwrap();
+        let points = [Vec3::new(1.2, 0.1, 0.3), Vec3::new(1.7, 0.0, -0.2), Vec3::new(1.0, 90.0, 0.0)];
+        let (_, report) = wear.roughness(&points, &|_| None, None).unwrap();
+        assert_eq!(wear.measured(&points, &|_| None), Ok(vec![0.0, 10.0, 2.5]));
+        assert_eq!((report.wear, report.not_measured), ([0.0, 10.0], 0));
+        for (keys, part) in [
+            ("run = 'r.csv'", "measured = \"sliding_work\""),
+            ("run = 'r.csv'\nvalue = 3", "leave drawing and value out"),
+            ("run = 'r.csv'\nmeasured = 'work'", "r.csv: has no column 'work'"),
+        ] {
+            let told = of(keys).unwrap_err().to_string();
+            assert!(told.contains(part), "{told}");
+        }
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod every_key;
 mod every_option;
 mod example_scenes;
 mod fallen;
+mod furnace;
 mod help_examples;
 mod lab_folders;
 mod lab_speed;

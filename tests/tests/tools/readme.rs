@@ -27,8 +27,8 @@ fn behind<'a>(text: &'a str, start: &str) -> Vec<&'a str> {
 
 #[test]
 fn every_make_target_exists() {
-    let (readme, makefile) =
-        (readme(), fs::read_to_string(root().join("pipelines/Makefile")).expect("a Makefile"));
+    let rules = |name: &str| fs::read_to_string(root().join("pipelines").join(name)).expect("rules of make");
+    let (readme, makefile) = (readme(), rules("Makefile") + &rules("furnace.mk"));
     let targets = behind(&readme, "make -C pipelines ");
     assert!(targets.len() > 4, "{targets:?}");
     for target in targets {
@@ -70,11 +70,17 @@ fn every_block_runs() {
     let (folder, sources) = (tempdir().unwrap(), root().canonicalize().unwrap());
     let at = |name: &str| folder.path().join(name);
     symlink(sources.join("sample-data"), at("sample-data")).unwrap();
-    fs::create_dir_all(at("pipelines/scenes")).unwrap();
-    for entry in fs::read_dir(sources.join("pipelines/scenes")).unwrap() {
-        let entry = entry.unwrap();
-        fs::copy(entry.path(), at("pipelines/scenes").join(entry.file_name())).unwrap();
+    for copied in ["pipelines/scenes", "pipelines/furnace"] {
+        fs::create_dir_all(at(copied)).unwrap();
+        for entry in fs::read_dir(sources.join(copied)).unwrap() {
+            let entry = entry.unwrap();
+            fs::copy(entry.path(), at(copied).join(entry.file_name())).unwrap();
+        }
     }
+    // What `make -C pipelines furnace` makes first.
+    fs::create_dir_all(at("pipelines/out/furnace")).unwrap();
+    let chute = "cloud-crop sample-data/chute/chute.ply --remove halfspace:0,0,0,-0.766,0,0.643 | bluenoise-sample --spacing 0.1 \
+                 | wallgen --radius uniform --roughness 0.008 --facing 0.643,0,0.766 --material steel -o pipelines/out/furnace/chute.mcap";
     // The tools, but dem-run stops after a moment.
     fs::create_dir(at("bin")).unwrap();
     let engine = program("dem-run");
@@ -85,11 +91,12 @@ fn every_block_runs() {
     let readme = readme();
     let runs: Vec<&str> = blocks(&readme).into_iter().filter(|b| !b.contains("make ")).collect();
     assert_eq!(runs.len(), 3);
-    for block in runs {
+    for block in std::iter::once(chute).chain(runs) {
         let mut shell = Command::new("bash");
         shell.args(["-eo", "pipefail", "-c", block]).current_dir(folder.path()).env("PATH", &path);
         let done = shell.output().expect("bash starts");
         assert!(done.status.success(), "{block}\n{}", String::from_utf8_lossy(&done.stderr));
     }
-    assert!(at("run.html").exists() && at("up.mcap").exists() && at("down.mcap").exists());
+    let made = ["up.mcap", "inwards.mcap", "outwards.mcap"].map(|name| at("pipelines/furnace").join(name));
+    assert!(at("run.html").exists() && made.iter().all(|file| file.exists()));
 }

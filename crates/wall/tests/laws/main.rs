@@ -54,7 +54,8 @@ fn placed_on_the_surface_spheres_touch_the_points_from_behind() {
     let (wall, _) = build(&lattice(9, 0.01), &everywhere(0.001), &settings).unwrap();
     assert!(wall.centres.iter().zip(&wall.radii).all(|(c, r)| (c.z + r).abs() < 1e-12));
     let error =
-        build(&lattice(9, 0.01), &everywhere(0.001), &WallSettings { facing: None, ..settings.clone() }).unwrap_err();
+        build(&lattice(9, 0.01), &everywhere(0.001), &WallSettings { facing: None, ..settings.clone() })
+            .unwrap_err();
     assert!(matches!(error, WallError::NoFacing));
 }
 
