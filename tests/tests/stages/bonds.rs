@@ -9,7 +9,7 @@ use std::path::Path;
 use tempfile::TempDir;
 
 /// Three lumps of 27 spheres that fall onto a floor at different times, one of them beside the others' axis.
-fn lumps() -> TempDir {
+pub fn lumps(motion: &str) -> TempDir {
     let mut rows = "id,x,y,z,radius,cluster\n".to_owned();
     for (lump, (x, z)) in [(0.0, 0.02), (0.004, 0.07), (0.05, 0.05)].into_iter().enumerate() {
         for k in 0..27 {
@@ -31,7 +31,7 @@ fn lumps() -> TempDir {
     // Pieces that the floor throws back get up to the plane at the end.
     let guards = "[guards]\nzones = false\n";
     let plant = format!("{}{guards}{grains}{bond}{floor}", SINTER.toml());
-    plant_of(&plant, &[("lumps.csv", &rows)], &["--motion", "ballistic"])
+    plant_of(&plant, &[("lumps.csv", &rows)], &["--motion", motion])
 }
 
 fn bonds(folder: &Path, report: &str) -> Vec<u64> {
@@ -41,7 +41,7 @@ fn bonds(folder: &Path, report: &str) -> Vec<u64> {
 
 #[test]
 fn lumps_break_downstream_as_in_the_undivided_plant() {
-    let folder = lumps();
+    let folder = lumps("ballistic");
     let run = |arguments: &str| {
         let done = line(folder.path(), arguments);
         assert_eq!(done.code, 0, "{}", done.stderr);
@@ -72,7 +72,7 @@ fn lumps_break_downstream_as_in_the_undivided_plant() {
 /// A lump is the same cluster downstream, also as a column of the frames there; in a second replay it is another one.
 #[test]
 fn lumps_keep_their_clusters() {
-    let folder = lumps();
+    let folder = lumps("ballistic");
     let path = folder.path();
     succeed(path, "dem-run", &["up.toml", "-q", "-o", "up.mcap"]);
     let replayed = |options: &[&str]| {
@@ -100,7 +100,7 @@ fn lumps_keep_their_clusters() {
 /// At once, and after a stop: the same bytes.
 #[test]
 fn pipes_and_stops_change_nothing() {
-    let folder = lumps();
+    let folder = lumps("ballistic");
     let done = line(
         folder.path(),
         "dem-run up.toml -q -o up.mcap && stage-replay up.mcap --keep-times -q -o in.mcap && dem-run down.toml in.mcap -q -o after.mcap \
@@ -119,7 +119,7 @@ fn pipes_and_stops_change_nothing() {
 /// A stage that knows of no bonds does not take them for loose grains.
 #[test]
 fn bonds_that_no_scene_asked_for_are_refused() {
-    let folder = lumps();
+    let folder = lumps("ballistic");
     succeed(folder.path(), "dem-run", &["up.toml", "--until", "0.15", "-q", "-o", "up.mcap"]);
     succeed(folder.path(), "stage-replay", &["up.mcap", "-q", "-o", "in.mcap"]);
     let text = fs::read_to_string(folder.path().join("down.toml")).unwrap();

@@ -56,7 +56,7 @@ faces = ["x-", "x+", "y-", "y+"]
 material = "sinter"
 "#;
 
-fn clumped(options: &str) -> TempDir {
+pub fn clumped(options: &str) -> TempDir {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("plant.toml"), SINTER.toml() + ABOVE + CLUMPS).unwrap();
     let cut =

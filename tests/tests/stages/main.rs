@@ -2,6 +2,7 @@
 
 mod bonds;
 mod clumps;
+mod ledger;
 mod live;
 mod marks;
 mod motions;
