@@ -154,9 +154,6 @@ impl Observer for Wear {
     fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Contacts(contacts) = message else { return Ok(()) };
         self.contact_frames += 1;
-        if !self.what.holds(run, contacts.time) {
-            return Ok(());
-        }
         if self.cell.is_none() && run.spheres.position.is_empty() {
             let cure = "give --cell M for a map by cells of space";
             return Err(MeasureError::Channel { topic: record::topic::WALLS, what: "wall spheres", cure });
