@@ -102,12 +102,8 @@ impl Flow {
     /// Spans that are not above zero.
     pub fn new(options: FlowOptions) -> Result<Flow, MeasureError> {
         if let Some(value) = options.span.filter(|s| !(*s > 0.0 && s.is_finite())) {
-            return Err(MeasureError::Setting {
-                what: "span",
-                value,
-                unit: "s",
-                cure: "give a time above 0",
-            });
+            let cure = "give a time above 0";
+            return Err(MeasureError::Setting { what: "span", value, unit: "s", cure });
         }
         Ok(Flow {
             options,
@@ -282,12 +278,8 @@ impl Observer for Flow {
 
     fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
         if self.frames < 2 {
-            let what = "a flow between frames";
-            return Err(if self.frames == 0 {
-                NO_FRAMES
-            } else {
-                MeasureError::OneFrame { what, frames: 1 }
-            });
+            let one = MeasureError::OneFrame { what: "a flow between frames", frames: 1 };
+            return Err(if self.frames == 0 { NO_FRAMES } else { one });
         }
         if let (Some(span), Some(start), 0) = (self.options.span, self.start, self.number) {
             return Err(MeasureError::LongSpan { span, length: self.until - start });

@@ -73,6 +73,9 @@ fn lay_out(args: &Args, toml: &str, seeds: &[u64]) -> anyhow::Result<Lab> {
 fn refused(error: LabError) -> anyhow::Error {
     match error {
         LabError::Usage(text) => cli::usage(text),
+        signal @ (LabError::Signal { .. } | LabError::Interrupted) => {
+            cli::stopped_by_signal(signal.to_string())
+        }
         other => other.into(),
     }
 }

@@ -27,7 +27,7 @@ impl From<SetupError> for SceneSetupError {
 /// What the message of [`Halt::Device`] has.
 pub const DEVICE_FAILED: &str = "the device has failed";
 
-/// How much more the hardest impact near a contact must need than the contact itself to be told [–].
+/// How much more the hardest impact near a contact must need than the contact itself to be named [–].
 const HARDER: f64 = 1.05;
 
 /// What a contact must be made of to bear what it met, and what the hardest impact near it needs.
