@@ -76,6 +76,8 @@ fn refused(error: LabError) -> anyhow::Error {
         signal @ (LabError::Signal { .. } | LabError::Interrupted) => {
             cli::stopped_by_signal(signal.to_string())
         }
+        // A program that the same signal has ended.
+        other if cli::stop_requested() => cli::stopped_by_signal(format!("stopped by a signal: {other}")),
         other => other.into(),
     }
 }
