@@ -115,7 +115,7 @@ fn run(lab: &Lab, folder: &Path, kept: bool) -> anyhow::Result<Specimens> {
     lab.run(folder, &programs, at_once, &begins, &|| progress.add(1)).map_err(|error| match error {
         signal @ LabError::Signal { .. } => {
             let again = if kept { "the same command continues" } else { "with --dir they would be kept" };
-            anyhow::anyhow!("{signal}: {again}")
+            cli::stopped_by_signal(format!("{signal}: {again}"))
         }
         other => refused(other),
     })
