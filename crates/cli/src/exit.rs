@@ -42,6 +42,11 @@ impl Stopped {
     }
 }
 
+/// An error that ends the tool with exit code 3 because a signal has asked it to end; the same command goes on.
+pub fn stopped_by_signal(reason: impl Into<String>) -> anyhow::Error {
+    Stopped::error(reason, Some(Report::new("").with("stopped", record::SIGNAL)))
+}
+
 impl fmt::Display for Stopped {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.reason)

@@ -6,6 +6,7 @@ use cloud::points::ReadWarning;
 use geom::number::NumberError;
 use std::{
     convert::Infallible,
+    ffi::OsString,
     fmt,
     fs::File,
     io::{self, IsTerminal, Read},
@@ -28,6 +29,13 @@ impl FromStr for Source {
     type Err = Infallible;
     fn from_str(text: &str) -> Result<Source, Infallible> {
         Ok(if text == "-" { Source::Stdin } else { Source::File(PathBuf::from(text)) })
+    }
+}
+
+/// Names of files are bytes, not text.
+impl From<OsString> for Source {
+    fn from(name: OsString) -> Source {
+        if name == "-" { Source::Stdin } else { Source::File(PathBuf::from(name)) }
     }
 }
 

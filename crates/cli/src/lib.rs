@@ -40,7 +40,7 @@ mod target;
 mod time;
 
 pub use clash::also_reads;
-pub use exit::{Stopped, Usage, usage};
+pub use exit::{Stopped, Usage, stopped_by_signal, usage};
 pub use input::{Input, Lengths, Source};
 pub use length::length;
 pub use output::{CloudOutput, Output, OutputStream};

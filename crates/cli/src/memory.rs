@@ -25,9 +25,9 @@ fn given(pointer: *mut u8, bytes: usize) -> *mut u8 {
     if pointer.is_null() { end(bytes) } else { pointer }
 }
 
-/// Says what was missing, without asking for memory, and ends the process.
+/// Says what was missing [B], without asking for memory, and ends the process.
 #[cold]
-fn end(bytes: usize) -> *mut u8 {
+pub(crate) fn end(bytes: usize) -> *mut u8 {
     if ENDING.swap(true, SeqCst) {
         if MINE.get() {
             return null_mut();

@@ -6,6 +6,7 @@
 
 use crate::target::target;
 use std::{
+    borrow::Cow,
     error::Error,
     fmt,
     fs::{self, File, Metadata, TryLockError},
@@ -20,6 +21,12 @@ use tempfile::NamedTempFile;
 
 /// Ending of the names of unfinished outputs.
 const ENDING: &str = "part";
+/// Longest name that file systems take [B].
+const LONGEST: usize = 255;
+/// What is put around the name of an output to name its part, at most [B].
+const AROUND: usize = 16;
+/// Digits that tell long names apart whose beginnings are the same.
+const DIGITS: usize = 8;
 /// Most parts of one output: more of them are an error that the user should see.
 const MOST: usize = 99;
 
@@ -50,7 +57,7 @@ pub(crate) struct PartFile {
 impl PartFile {
     /// A hidden file of a name that no other has.
     pub(crate) fn hidden(folder: &Path, stem: &str) -> io::Result<PartFile> {
-        let prefix = format!(".{stem}.");
+        let prefix = format!(".{}.", shortened(stem));
         let temp = builder().prefix(&prefix).suffix(".part").tempfile_in(folder)?;
         Ok(PartFile { temp: Some(temp), keep: Keep::default() })
     }
@@ -181,7 +188,17 @@ fn builder() -> tempfile::Builder<'static, 'static> {
     builder
 }
 
+/// A name that leaves room for what is put around it: the beginning of a long one, and digits of its hash.
+fn shortened(stem: &str) -> Cow<'_, str> {
+    if stem.len() <= LONGEST - AROUND {
+        return Cow::Borrowed(stem);
+    }
+    let end = stem.floor_char_boundary(LONGEST - AROUND - DIGITS - 1);
+    Cow::Owned(format!("{}~{}", &stem[..end], &stream::sha256(stem.as_bytes())[..DIGITS]))
+}
+
 fn name(stem: &str, number: usize) -> String {
+    let stem = shortened(stem);
     if number == 1 { format!("{stem}.{ENDING}") } else { format!("{stem}.{number}.{ENDING}") }
 }
 

@@ -3,6 +3,7 @@
 use crate::{
     Report, Source, Stopped, clash, describe,
     exit::{self, code, one_line, reader_closed_the_pipe},
+    memory,
     output::OutputStream,
     signals,
     stderr::{say, say_lines},
@@ -118,6 +119,10 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
     signals::size_limit_is_an_error();
     let print = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
+        // The standard library has no other word for a thread without memory for its second stack.
+        if panic.location().is_some_and(|at| at.file().ends_with("stack_overflow.rs")) {
+            memory::end(0);
+        }
         if !cloud::formats::panics_become_errors() {
             print(panic);
         }
@@ -133,6 +138,7 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
     };
     let arguments = canonical(&command::<A>(name), &matches);
     let _ = INVOCATION.set(Invocation { tool: name, arguments, quiet: common.quiet });
+    set_twice(&matches);
     let outcome = clash::refuse(&command::<A>(name), &matches)
         .and_then(|()| set_threads(&common))
         .and_then(|()| work(args));
@@ -198,11 +204,36 @@ fn refuse(name: &str, error: &clap::Error) -> ! {
         help(name, error);
     }
     let mut text = error.render().to_string();
+    if error.kind() == clap::error::ErrorKind::InvalidUtf8 {
+        text = not_text().unwrap_or(text);
+    }
     for (program, people) in PLAIN {
         text = text.replace(program, people);
     }
     say_lines(&format!("{name}: {}", text.strip_prefix("error: ").unwrap_or(&text)));
     std::process::exit(i32::from(exit::USAGE))
+}
+
+/// What to do about the first argument that is not text; names of inputs and outputs may be any bytes.
+fn not_text() -> Option<String> {
+    let argument = std::env::args_os().skip(1).find(|argument| argument.to_str().is_none())?;
+    Some(format!(
+        "argument '{}': is not valid UTF-8: rename the file, or give it as text",
+        argument.display()
+    ))
+}
+
+/// Of a key that is set several times the last value counts.
+fn set_twice(matches: &ArgMatches) {
+    let Ok(Some(sets)) = matches.try_get_many::<String>("set") else { return };
+    let values: Vec<(&str, &str)> = sets.filter_map(|set| set.split_once('=')).collect();
+    for (n, (key, value)) in values.iter().enumerate() {
+        if let Some((_, last)) = values[n + 1..].iter().find(|(other, _)| other.trim() == key.trim()) {
+            warn(&format!(
+                "--set {key}={value}: is set again, and {key}={last} counts: leave one of them out"
+            ));
+        }
+    }
 }
 
 /// Prints help or version and ends the tool.

@@ -19,13 +19,14 @@ fn main() -> ExitCode {
     if std::env::var_os(tool::SWITCH).is_some() {
         return tool::main();
     }
-    let tests: [(&str, Test); 22] = [
+    let tests: [(&str, Test); 23] = [
         ("a file appears when it is whole, with ordinary permissions", a_file_appears_when_it_is_whole),
         ("a failed tool leaves the old file and nothing else", a_failed_tool_leaves_the_old_file),
         ("a panic leaves nothing", a_panic_leaves_nothing),
         ("a signal leaves nothing", a_signal_leaves_nothing),
         ("too little memory is one line", outside::too_little_memory_is_one_line),
         ("threads of a variable have the same limit", outside::threads_of_a_variable),
+        ("names of files are bytes, as long as the system allows", outside::names_of_all_bytes_and_lengths),
         ("what a tool reads is noted", outside::what_a_tool_reads_is_noted),
         ("links stay links, devices and pipes stay what they are", links_and_pipes_stay),
         ("a link without a target stays, and its target is created", a_dangling_link_stays),

@@ -96,6 +96,9 @@ pub enum CurveError {
     Usage(String),
     #[error("{0}")]
     Failed(String),
+    /// A signal has asked to stop; what is finished stays.
+    #[error("{0}")]
+    Signal(String),
     #[error("{what}")]
     Io { what: String, source: std::io::Error },
     #[error(transparent)]

@@ -10,7 +10,7 @@
 //! distance is less than the sum of their radii, which is exact for every law whose forces end there, and walls are
 //! unknown.
 
-use crate::observer::{NO_FRAMES, Observer, Which};
+use crate::observer::{NO_FRAMES, Observer};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{Contacts, Frame, MeasureError, Partner, Run, RunMessage};
 use geom::Vec3;
@@ -167,36 +167,30 @@ pub fn touching(frame: &Frame) -> Vec<(usize, usize)> {
 const FEW: MeasureError = MeasureError::FewGrains { what: "a contact number", most: 0, wanted: 1 };
 
 /// Measures contact numbers over time.
+#[derive(Default)]
 pub struct ContactNumbers {
-    which: Which,
     /// A frame whose contacts may still come.
     waiting: Option<Frame>,
     early: Option<Contacts>,
     recorded: bool,
     last: Option<(Coordination, f64)>,
-    frames: u64,
+    /// Most grains of a frame.
+    grains: usize,
 }
 
 impl ContactNumbers {
-    /// Of chosen frames.
-    pub fn new(which: Which) -> ContactNumbers {
-        ContactNumbers { which, waiting: None, early: None, recorded: false, last: None, frames: 0 }
-    }
-
     fn count(&mut self, frame: &Frame, contacts: Option<&Contacts>, rows: &mut Vec<Row>) {
-        if frame.is_empty() {
-            return;
-        }
         let c = match contacts {
             Some(contacts) => Coordination::of_contacts(frame, contacts),
             None => Coordination::of_frame(frame),
         };
         self.recorded |= contacts.is_some();
         rows.push(row(frame, &c));
+        self.grains = self.grains.max(frame.len());
         self.last = Some((c, frame.time));
     }
 
-    /// The frame that waits is measured, or stays where only the last one is wanted.
+    /// The frame that waits is measured.
     fn settle(&mut self, contacts: Option<&Contacts>, rows: &mut Vec<Row>) {
         if let Some(frame) = self.waiting.take() {
             self.count(&frame, contacts, rows);
@@ -226,30 +220,21 @@ impl Observer for ContactNumbers {
         ])
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let series = matches!(self.which, Which::Between(..));
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         match message {
             RunMessage::Frame(frame) => {
-                self.frames += 1;
-                if !self.which.holds(run, frame.time) || (!series && frame.is_empty()) {
-                    return Ok(());
-                }
-                if series {
-                    self.settle(None, rows);
-                }
+                self.settle(None, rows);
                 // Contacts may also come before their frame.
                 let own = self.early.take().filter(|c| c.time == frame.time);
                 self.waiting = Some(frame);
-                match own {
-                    Some(contacts) if series => self.settle(Some(&contacts), rows),
-                    own => self.early = own,
+                if own.is_some() {
+                    self.settle(own.as_ref(), rows);
                 }
             }
             RunMessage::Contacts(contacts) => {
-                let fits = self.waiting.as_ref().is_some_and(|f| f.time == contacts.time);
-                if fits && series {
+                if self.waiting.as_ref().is_some_and(|f| f.time == contacts.time) {
                     self.settle(Some(&contacts), rows);
-                } else if fits || self.which.holds(run, contacts.time) {
+                } else {
                     self.early = Some(contacts);
                 }
             }
@@ -259,11 +244,11 @@ impl Observer for ContactNumbers {
     }
 
     fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        let time = self.waiting.as_ref().map(|f| f.time);
-        let own = self.early.take().filter(|c| Some(c.time) == time);
-        self.settle(own.as_ref(), rows);
-        let none = || if self.frames == 0 { NO_FRAMES } else { FEW };
-        let (c, time) = self.last.as_ref().ok_or_else(none)?;
+        self.settle(None, rows);
+        let (c, time) = self.last.as_ref().ok_or(NO_FRAMES)?;
+        if self.grains == 0 {
+            return Err(FEW);
+        }
         let (mechanical, rattlers) = c.mechanical();
         let summary = Summary::default()
             .with("coordination", "1", c.mean())

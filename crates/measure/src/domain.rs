@@ -18,17 +18,10 @@ const STRAIN: usize = 4;
 const STRESS: usize = 8;
 
 /// Reads strain and stress of the domain.
+#[derive(Default)]
 pub struct Domain {
-    between: (f64, f64),
     seen: bool,
     last: Option<Row>,
-}
-
-impl Domain {
-    /// Nothing read yet; only messages between two times [s].
-    pub fn new(between: (f64, f64)) -> Domain {
-        Domain { between, seen: false, last: None }
-    }
 }
 
 fn row(record: &DomainRecord, stress: [[f64; 3]; 3]) -> Row {
@@ -48,12 +41,10 @@ impl Observer for Domain {
         Head::list(&[&[("time", "s")], &lengths[..], &strains[..], &parts[..]].concat())
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Domain(record) = message else { return Ok(()) };
         self.seen = true;
-        let Some(stress) = record.stress.filter(|_| run.is_between(self.between, record.time)) else {
-            return Ok(());
-        };
+        let Some(stress) = record.stress else { return Ok(()) };
         rows.push(row(&record, stress));
         self.last = rows.last().cloned();
         Ok(())

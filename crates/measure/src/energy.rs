@@ -49,7 +49,6 @@ impl Ledger {
 
 /// Reads the ledger.
 pub struct Energy {
-    between: (f64, f64),
     terms: Vec<String>,
     first: Option<Ledger>,
     exchanged: f64,
@@ -67,11 +66,16 @@ pub struct Energy {
     wrong: Option<[f64; 3]>,
 }
 
+impl Default for Energy {
+    fn default() -> Energy {
+        Energy::new()
+    }
+}
+
 impl Energy {
-    /// Nothing read yet; only ledgers between two times [s].
-    pub fn new(between: (f64, f64)) -> Energy {
+    /// Nothing read yet.
+    pub fn new() -> Energy {
         Energy {
-            between,
             terms: ORDER.map(str::to_owned).to_vec(),
             first: None,
             exchanged: 0.0,
@@ -131,15 +135,13 @@ impl Observer for Energy {
         heads
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         match message {
             RunMessage::Frame(frame) => {
                 let sum = |of: fn(u64) -> u64| frame.id.iter().fold(0, |s: u64, id| s.wrapping_add(of(*id)));
                 self.now = (frame.len(), sum(|id| id), sum(|id| id.wrapping_mul(id)));
             }
-            RunMessage::Ledger(l) if run.is_between(self.between, l.time) => {
-                rows.push(self.row(l));
-            }
+            RunMessage::Ledger(l) => rows.push(self.row(l)),
             _ => {}
         }
         Ok(())
@@ -198,7 +200,7 @@ mod tests {
     #[test]
     fn curves_of_a_panel_have_colours_of_their_own() {
         let names: Vec<String> = (0..20).map(|k| format!("term{k}")).collect();
-        let mut energy = Energy::new((f64::NEG_INFINITY, f64::INFINITY));
+        let mut energy = Energy::new();
         energy.terms = names;
         let row = |time: f64| {
             let terms = (0..20).map(|k| if k < 11 { f64::from(k) * time } else { 0.0 });
@@ -226,7 +228,7 @@ mod tests {
     fn the_balance_is_the_sum_of_its_terms_with_their_signs() {
         assert_eq!(ledger(0.0).sum(), 5.0 + 2.0 - 1.5 - 0.25 - 0.5);
         let notes = |balance: f64| {
-            let (mut energy, mut rows) = (Energy::new((f64::NEG_INFINITY, f64::INFINITY)), Vec::new());
+            let (mut energy, mut rows) = (Energy::new(), Vec::new());
             energy.observe(&Run::default(), RunMessage::Ledger(ledger(balance)), &mut rows).unwrap();
             energy.end(&Run::default(), &mut rows).unwrap().notes
         };

@@ -73,6 +73,11 @@ pub enum MeasureError {
         Shown(*length), Shown(*span), Shown(length / most)
     )]
     Spans { span: f64, length: f64, most: f64 },
+    #[error(
+        "the frames are {} s long, and one span of {} s does not fit: give a shorter --span, or run longer",
+        Shown(length.max(0.0)), Shown(*span)
+    )]
+    LongSpan { span: f64, length: f64 },
     #[error("there is only one kind of grains ({kind}): {cure}")]
     OneKind { kind: String, cure: &'static str },
     #[error(

@@ -83,6 +83,8 @@ pub struct Flow {
     start: Option<f64>,
     /// Number of the open span, of those of equal length.
     number: u64,
+    /// How far spans may be closed [s].
+    until: f64,
     frames: u64,
     /// Least and largest distance of grains from the plane [m].
     reach: (f64, f64),
@@ -100,12 +102,8 @@ impl Flow {
     /// Spans that are not above zero.
     pub fn new(options: FlowOptions) -> Result<Flow, MeasureError> {
         if let Some(value) = options.span.filter(|s| !(*s > 0.0 && s.is_finite())) {
-            return Err(MeasureError::Setting {
-                what: "span",
-                value,
-                unit: "s",
-                cure: "give a time above 0",
-            });
+            let cure = "give a time above 0";
+            return Err(MeasureError::Setting { what: "span", value, unit: "s", cure });
         }
         Ok(Flow {
             options,
@@ -114,6 +112,7 @@ impl Flow {
             passes: VecDeque::new(),
             start: None,
             number: 0,
+            until: f64::NAN,
             frames: 0,
             reach: (f64::INFINITY, f64::NEG_INFINITY),
             total: Span::default(),
@@ -192,6 +191,7 @@ impl Flow {
 
     /// Rows of the spans that end at or before a time [s].
     fn close(&mut self, time: f64, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        self.until = time;
         let Some(origin) = self.start else { return Ok(()) };
         let length = time + SLACK - origin;
         if let Some(span) = self.options.span.filter(|span| length / span > MOST_SPANS) {
@@ -278,12 +278,11 @@ impl Observer for Flow {
 
     fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
         if self.frames < 2 {
-            let what = "a flow between frames";
-            return Err(if self.frames == 0 {
-                NO_FRAMES
-            } else {
-                MeasureError::OneFrame { what, frames: 1 }
-            });
+            let one = MeasureError::OneFrame { what: "a flow between frames", frames: 1 };
+            return Err(if self.frames == 0 { NO_FRAMES } else { one });
+        }
+        if let (Some(span), Some(start), 0) = (self.options.span, self.start, self.number) {
+            return Err(MeasureError::LongSpan { span, length: self.until - start });
         }
         let (low, high) = self.reach;
         let unreached = self.total.count == [0, 0] && (low >= 0.0 || high < 0.0) && self.outlet.is_none();

@@ -3,7 +3,7 @@
 //! f = F/⟨F⟩; bars of width 0.2 up to 8, and one for all above; as density P(f), whose integral is 1, as usual since
 //! Mueth, Jaeger & Nagel (1998), Phys. Rev. E 57, DOI 10.1103/PhysRevE.57.3164.
 
-use crate::observer::{NO_CONTACTS, Observer, Which};
+use crate::observer::{NO_CONTACTS, Observer};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{Contacts, MeasureError, Partner, Run, RunMessage};
 
@@ -59,17 +59,15 @@ pub fn magnitudes(contacts: &Contacts, walls: bool) -> [Vec<f64>; 2] {
 
 /// Measures the distribution of forces between grains, or on walls.
 pub struct Forces {
-    which: Which,
     walls: bool,
-    kept: Option<Contacts>,
     last: Option<[Distribution; 2]>,
     contact_frames: u64,
 }
 
 impl Forces {
-    /// Of the contacts at chosen times; between grains, or with walls.
-    pub fn new(which: Which, walls: bool) -> Forces {
-        Forces { which, walls, kept: None, last: None, contact_frames: 0 }
+    /// Of the contacts between grains, or with walls.
+    pub fn new(walls: bool) -> Forces {
+        Forces { walls, last: None, contact_frames: 0 }
     }
 
     fn measure(&mut self, contacts: &Contacts) -> Vec<Row> {
@@ -102,26 +100,16 @@ impl Observer for Forces {
         ])
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Contacts(contacts) = message else { return Ok(()) };
         self.contact_frames += 1;
-        if !self.which.holds(run, contacts.time) {
-            return Ok(());
-        }
-        if let Which::Between(..) = self.which {
-            rows.extend(self.measure(&contacts));
-        } else {
-            self.kept = Some(contacts);
-        }
+        rows.extend(self.measure(&contacts));
         Ok(())
     }
 
-    fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+    fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
         if self.contact_frames == 0 {
             return Err(NO_CONTACTS);
-        }
-        if let Some(contacts) = self.kept.take() {
-            rows.extend(self.measure(&contacts));
         }
         let Some([normal, tangential]) = &self.last else {
             let note = "no contacts in these frames";

@@ -19,40 +19,9 @@ pub trait Observer {
     fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError>;
     /// What to draw, from all rows that were given.
     fn chart(&self, rows: &[Row]) -> Chart;
-}
-
-/// Which frames are looked at.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Which {
-    /// The last one that holds grains.
-    Last,
-    /// The last one not after a time [s].
-    At(f64),
-    /// All from a time to a time [s].
-    Between(f64, f64),
-}
-
-impl Which {
-    /// All of them.
-    pub const ALL: Which = Which::Between(f64::NEG_INFINITY, f64::INFINITY);
-
-    /// Whether a time of a run lies in it.
-    pub fn holds(&self, run: &Run, time: f64) -> bool {
-        match *self {
-            Which::Last => true,
-            Which::At(at) => run.is_between((f64::NEG_INFINITY, at), time),
-            Which::Between(from, until) => run.is_between((from, until), time),
-        }
-    }
-
-    /// The error of a run that holds none of them: its frames are from a time to a time [s].
-    pub(crate) fn missing(&self, (first, last): (f64, f64)) -> MeasureError {
-        let wanted = match self {
-            Which::Between(from, until) => format!("from {from} to {until} s"),
-            Which::At(at) => format!("at or before {at} s"),
-            Which::Last => "at all".to_owned(),
-        };
-        MeasureError::NoFrame { wanted, first, last }
+    /// Whether a frame holds grains that it counts: the last of those is the last frame.
+    fn counts(&self, _: &Run, frame: &Frame) -> bool {
+        !frame.is_empty()
     }
 }
 
@@ -77,23 +46,22 @@ pub trait OfFrame {
     fn chart(&self, rows: &[Row]) -> Chart;
 }
 
-/// Measures chosen frames.
+/// Measures each frame that it is given.
 pub struct PerFrame<M> {
     measure: M,
-    which: Which,
     within: Option<Within>,
     /// How many grains have fallen past all walls and are left out, of how many; `None`: they count.
     fallen: Option<[usize; 2]>,
-    kept: Option<Frame>,
-    /// Times of the first and the last frame [s].
-    span: Option<(f64, f64)>,
-    measured: u64,
+    /// Frames that were given, and those of them that were measured.
+    frames: [u64; 2],
+    /// Why a frame without grains was not measured.
+    empty: Option<MeasureError>,
 }
 
 impl<M: OfFrame> PerFrame<M> {
-    /// Measures the frames that are chosen.
-    pub fn new(measure: M, which: Which) -> PerFrame<M> {
-        PerFrame { measure, which, within: None, fallen: None, kept: None, span: None, measured: 0 }
+    /// Measures all frames; [`crate::Selected`] chooses them. One without grains has a row without numbers, if others have grains.
+    pub fn new(measure: M) -> PerFrame<M> {
+        PerFrame { measure, within: None, fallen: None, frames: [0; 2], empty: None }
     }
 
     /// Only the grains whose centres a shape holds; `None`: all.
@@ -143,20 +111,25 @@ impl Within {
 }
 
 impl<M: OfFrame> Observer for PerFrame<M> {
+    fn counts(&self, run: &Run, frame: &Frame) -> bool {
+        let held = |row: usize| {
+            let at = &frame.position[row];
+            self.within.as_ref().is_none_or(|within| frame.periodic.holds(&within.shape, at))
+                && (self.fallen.is_none() || !has_fallen(run, frame, row))
+        };
+        (0..frame.len()).any(held)
+    }
+
     fn heads(&self) -> Vec<Head> {
         self.measure.heads()
     }
 
     fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         let RunMessage::Frame(frame) = message else { return Ok(()) };
-        self.span = Some((self.span.map_or(frame.time, |s| s.0), frame.time));
-        if !self.which.holds(run, frame.time) {
-            return Ok(());
-        }
-        let frame = match (&mut self.fallen, run.walls_end) {
-            (Some(fallen), Some((down, depth))) => {
-                let there = |row: usize| frame.position[row].dot(&down) - frame.radius[row] <= depth;
-                let rest = frame.only(there);
+        self.frames[0] += 1;
+        let frame = match &mut self.fallen {
+            Some(fallen) if run.walls_end.is_some() => {
+                let rest = frame.only(|row| !has_fallen(run, &frame, row));
                 if !frame.is_empty() {
                     *fallen = [frame.len() - rest.len(), frame.len()];
                 }
@@ -168,27 +141,33 @@ impl<M: OfFrame> Observer for PerFrame<M> {
             Some(within) => within.of(&frame),
             None => frame,
         };
-        if let Which::Between(..) = self.which {
-            rows.extend(self.measure.measure(run, &frame)?);
-            self.measured += 1;
-        } else if self.which != Which::Last || !frame.is_empty() || self.kept.is_none() {
-            self.kept = Some(frame);
+        match self.measure.measure(run, &frame) {
+            Ok(found) => rows.extend(found),
+            Err(why @ MeasureError::NoGrains { .. }) => {
+                rows.push(undefined(&self.measure.heads(), frame.time));
+                self.empty = Some(why);
+                return Ok(());
+            }
+            Err(other) => return Err(other),
         }
+        self.frames[1] += 1;
         Ok(())
     }
 
-    fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        let (first, last) = self.span.ok_or(NO_FRAMES)?;
-        self.within.as_ref().map_or(Ok(()), Within::check)?;
-        if let Some(frame) = self.kept.take() {
-            rows.extend(self.measure.measure(run, &frame)?);
-            self.measured += 1;
+    fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        let [frames, measured] = self.frames;
+        if frames == 0 {
+            return Err(NO_FRAMES);
         }
-        if self.measured == 0 {
-            return Err(self.which.missing((first, last)));
+        self.within.as_ref().map_or(Ok(()), Within::check)?;
+        if measured == 0 {
+            return Err(self.empty.take().unwrap_or(NO_FRAMES));
         }
         let (more, summary) = self.measure.end()?;
         rows.extend(more);
+        let empty = geom::counted(frames - measured, "frame");
+        let note = format!("{empty} without grains: empty cells");
+        let summary = if measured < frames { summary.note(note) } else { summary };
         Ok(match self.fallen {
             Some([fallen, of]) if fallen > 0 => {
                 summary.note(format!("{fallen} of {of} grains have fallen past all walls and are left out"))
@@ -200,6 +179,17 @@ impl<M: OfFrame> Observer for PerFrame<M> {
     fn chart(&self, rows: &[Row]) -> Chart {
         self.measure.chart(rows)
     }
+}
+
+/// Whether a grain has fallen past all walls.
+fn has_fallen(run: &Run, frame: &Frame, row: usize) -> bool {
+    run.walls_end.is_some_and(|(down, depth)| frame.position[row].dot(&down) - frame.radius[row] > depth)
+}
+
+/// A row at a time [s] in which nothing else is defined.
+pub(crate) fn undefined(heads: &[Head], time: f64) -> Row {
+    let cell = |head: &Head| if head.name == "time" { time } else { f64::NAN };
+    heads.iter().map(cell).collect()
 }
 
 /// A run without frames.

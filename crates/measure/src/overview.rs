@@ -31,10 +31,9 @@ pub struct Overview {
 
 impl Default for Overview {
     fn default() -> Overview {
-        let all = (f64::NEG_INFINITY, f64::INFINITY);
         Overview {
-            energy: (Energy::new(all), Vec::new()),
-            bonds: (BondNumbers::new(all), Vec::new()),
+            energy: (Energy::new(), Vec::new()),
+            bonds: (BondNumbers::default(), Vec::new()),
             grains: Vec::new(),
             walls: Vec::new(),
             outlets: Vec::new(),

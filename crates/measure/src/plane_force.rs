@@ -18,8 +18,6 @@ use std::collections::HashMap;
 /// Measures the force through a plane.
 pub struct PlaneForce {
     plane: Plane,
-    /// Only frames between these times [s].
-    between: (f64, f64),
     /// Distance of each grain of the frame from the plane [m], by id.
     distances: HashMap<u64, f64>,
     /// Along the normal and across it, of every frame [N].
@@ -29,10 +27,10 @@ pub struct PlaneForce {
 }
 
 impl PlaneForce {
-    /// Through a plane, between two times [s].
-    pub fn new(plane: Plane, between: (f64, f64)) -> PlaneForce {
+    /// Through a plane.
+    pub fn new(plane: Plane) -> PlaneForce {
         let (distances, sizes) = (HashMap::new(), [Vec::new(), Vec::new()]);
-        PlaneForce { plane, between, distances, sizes, counts: Vec::new(), contact_frames: 0 }
+        PlaneForce { plane, distances, sizes, counts: Vec::new(), contact_frames: 0 }
     }
 
     /// The force of a contact on the grain behind the plane [N], where its grains are on different sides.
@@ -46,11 +44,8 @@ impl PlaneForce {
         }
     }
 
-    fn contacts(&mut self, run: &Run, contacts: &Contacts, rows: &mut Vec<Row>) {
+    fn contacts(&mut self, contacts: &Contacts, rows: &mut Vec<Row>) {
         self.contact_frames += 1;
-        if !run.is_between(self.between, contacts.time) {
-            return;
-        }
         let (count, force) = contacts
             .acting()
             .filter_map(|c| self.on_behind(c))
@@ -77,14 +72,14 @@ impl Observer for PlaneForce {
         ])
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         match message {
             RunMessage::Frame(frame) => {
                 self.distances.clear();
                 let distance = frame.position.iter().map(|p| self.plane.signed_distance(p));
                 self.distances.extend(frame.id.iter().copied().zip(distance));
             }
-            RunMessage::Contacts(contacts) => self.contacts(run, &contacts, rows),
+            RunMessage::Contacts(contacts) => self.contacts(&contacts, rows),
             _ => {}
         }
         Ok(())

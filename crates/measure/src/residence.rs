@@ -31,7 +31,6 @@ struct Stay {
 /// Measures stays in a shape.
 pub struct Residence {
     shape: Shape,
-    between: (f64, f64),
     before: PreviousFrame,
     inside: HashMap<u64, Stay>,
     stays: Vec<f64>,
@@ -44,10 +43,9 @@ pub struct Residence {
 
 impl Residence {
     /// Nothing measured yet; frames outside of the times [s] are not looked at.
-    pub fn new(shape: Shape, between: (f64, f64)) -> Residence {
+    pub fn new(shape: Shape) -> Residence {
         Residence {
             shape,
-            between,
             before: PreviousFrame::default(),
             inside: HashMap::new(),
             stays: Vec::new(),
@@ -137,10 +135,8 @@ impl Observer for Residence {
         Head::list(&[("id", "1"), ("entered", "s"), ("left", "s"), ("residence", "s"), ("mass", "kg")])
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        if let RunMessage::Frame(frame) = message
-            && run.is_between(self.between, frame.time)
-        {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        if let RunMessage::Frame(frame) = message {
             self.frame(frame.grains(), rows);
         }
         Ok(())
@@ -201,7 +197,7 @@ mod tests {
     #[test]
     fn grains_that_go_round_a_cell_stay_as_long_as_they_need() {
         for shape in ["box:0.04,-1,-1,0.06,1,1", "box:-0.01,-1,-1,0.01,1,1"] {
-            let mut stays = Residence::new(shape.parse().unwrap(), (f64::NEG_INFINITY, f64::INFINITY));
+            let mut stays = Residence::new(shape.parse().unwrap());
             let mut rows = Vec::new();
             run_of_five(|run, frame| stays.observe(run, RunMessage::Frame(frame), &mut rows).unwrap());
             let summary = stays.end(&Run::default(), &mut rows).unwrap();

@@ -63,6 +63,22 @@ pub enum RunMessage {
     Cracks(Vec<Crack>),
 }
 
+impl RunMessage {
+    /// Its channel, and the time of which it holds the state [s]; `None` for lists of events, which have their own times.
+    pub fn at(&self) -> Option<(&'static str, f64)> {
+        match self {
+            RunMessage::Frame(m) => Some((PARTICLES, m.time)),
+            RunMessage::Contacts(m) => Some((CONTACTS, m.time)),
+            RunMessage::Ledger(m) => Some((ENERGY, m.time)),
+            RunMessage::WallForces(m) => Some((WALL_FORCES, m.time)),
+            RunMessage::Settled(m) => Some((SETTLING, m.time)),
+            RunMessage::Domain(m) => Some((DOMAIN, m.time)),
+            RunMessage::Bonds(m) => Some((BONDS, m.time)),
+            RunMessage::Crossings(_) | RunMessage::Cracks(_) => None,
+        }
+    }
+}
+
 /// What the messages of a run have said about it so far.
 #[derive(Debug, Clone, Default)]
 pub struct Run {

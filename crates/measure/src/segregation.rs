@@ -15,7 +15,7 @@
 //! S = (z_A − z_B) / (H/2), H = √12 · deviation of z (mass-weighted): 0 mixed, 1 all of A above all of B.
 
 use crate::cells::cell_of;
-use crate::observer::OfFrame;
+use crate::observer::{OfFrame, undefined};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::median;
 use crate::{Frame, MeasureError, Run};
@@ -97,6 +97,8 @@ pub struct Segregation {
     axis: Option<Vec3>,
     last: Option<(Mixing, f64)>,
     most: usize,
+    /// Why a frame of one kind was not measured.
+    one_kind: Option<MeasureError>,
 }
 
 impl Segregation {
@@ -111,7 +113,14 @@ impl Segregation {
                 return Err(MeasureError::Setting { what, value, unit: "m", cure: "give a length above 0" });
             }
         }
-        Ok(Segregation { kinds, cell, axis: axis.map(|a| a.normalize()), last: None, most: 0 })
+        Ok(Segregation {
+            kinds,
+            cell,
+            axis: axis.map(|a| a.normalize()),
+            last: None,
+            most: 0,
+            one_kind: None,
+        })
     }
 
     fn first(&mut self, run: &Run, frame: &Frame) -> Result<Vec<bool>, MeasureError> {
@@ -149,19 +158,27 @@ impl OfFrame for Segregation {
         let frame = frame.grains();
         self.most = self.most.max(frame.len());
         if frame.len() < 2 {
-            return Ok(Vec::new());
+            return Ok(vec![undefined(&self.heads(), frame.time)]);
         }
         let first = self.first(run, frame)?;
         let cell = *self.cell.get_or_insert(3.0 * frame.mean_diameter());
         let up = self.axis.or(run.up).unwrap_or(Vec3::z());
-        let m = mixing(frame, &first, cell, &up)?;
+        let m = match mixing(frame, &first, cell, &up) {
+            Ok(m) => m,
+            // The other kind may come later.
+            Err(why @ MeasureError::OneKind { .. }) => {
+                self.one_kind = Some(why);
+                return Ok(vec![undefined(&self.heads(), frame.time)]);
+            }
+            Err(other) => return Err(other),
+        };
         self.last = Some((m, frame.time));
         Ok(vec![vec![frame.time, m.lacey, m.difference, m.share, m.cells as f64, m.per_cell]])
     }
 
     fn end(&mut self) -> Result<(Vec<Row>, Summary), MeasureError> {
-        let (m, time) =
-            self.last.ok_or(MeasureError::FewGrains { what: "mixing", most: self.most, wanted: 2 })?;
+        let few = MeasureError::FewGrains { what: "mixing", most: self.most, wanted: 2 };
+        let (m, time) = self.last.ok_or_else(|| self.one_kind.take().unwrap_or(few))?;
         let mut summary = Summary::default()
             .with("lacey_index", "1", m.lacey)
             .with("centre_difference", "1", m.difference)

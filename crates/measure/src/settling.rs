@@ -37,16 +37,9 @@ impl Settled {
 }
 
 /// Reads how far the grains are from rest.
+#[derive(Default)]
 pub struct Settling {
-    between: (f64, f64),
     last: Option<Settled>,
-}
-
-impl Settling {
-    /// Nothing read yet; only messages between two times [s].
-    pub fn new(between: (f64, f64)) -> Settling {
-        Settling { between, last: None }
-    }
 }
 
 impl Observer for Settling {
@@ -54,10 +47,8 @@ impl Observer for Settling {
         Head::list(&[("time", "s"), ("unbalanced", "1"), ("kinetic", "J")])
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        if let RunMessage::Settled(s) = message
-            && run.is_between(self.between, s.time)
-        {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        if let RunMessage::Settled(s) = message {
             rows.push(vec![s.time, s.unbalanced, s.kinetic]);
             self.last = Some(s);
         }

@@ -10,7 +10,7 @@
 //!
 //! The fit of Falk & Langer (1998), Phys. Rev. E 57, doi:10.1103/PhysRevE.57.7192, over all grains at once.
 
-use crate::observer::OfFrame;
+use crate::observer::{OfFrame, undefined};
 use crate::path::{Passage, unsure_note};
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{Frame, MeasureError, Run};
@@ -66,6 +66,8 @@ pub struct Strain {
     start: BTreeMap<u64, Followed>,
     /// Ways through periodic faces that may be wrong by a period.
     unsure: u64,
+    /// Most grains that a frame would have begun with.
+    most: usize,
     last: Option<(f64, Fit)>,
 }
 
@@ -104,7 +106,7 @@ impl Followed {
 impl Strain {
     /// Of the grains whose centres a shape holds in the first frame; `None`: of all.
     pub fn new(within: Option<Shape>) -> Strain {
-        Strain { within, start: BTreeMap::new(), unsure: 0, last: None }
+        Strain { within, start: BTreeMap::new(), unsure: 0, most: 0, last: None }
     }
 }
 
@@ -117,15 +119,17 @@ impl OfFrame for Strain {
         )
     }
 
-    fn measure(&mut self, run: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
+    fn measure(&mut self, _: &Run, frame: &Frame) -> Result<Vec<Row>, MeasureError> {
         if self.start.is_empty() {
-            let held = |x: &Vec3| self.within.as_ref().is_none_or(|shape| run.holds(shape, x));
+            let held = |x: &Vec3| self.within.as_ref().is_none_or(|shape| frame.periodic.holds(shape, x));
             let states = frame.position.iter().copied().zip(frame.velocity.iter().copied());
             let all = frame.id.iter().copied().zip(states).filter(|(_, (x, _))| held(x));
             self.start = all.map(|(id, state)| (id, Followed::new(frame.time, state))).collect();
+            self.most = self.most.max(self.start.len());
             if self.start.len() < FEWEST {
-                let most = self.start.len();
-                return Err(MeasureError::FewGrains { what: "a mean strain", most, wanted: FEWEST });
+                // A run may begin without grains: the first frame is the first that has enough.
+                self.start.clear();
+                return Ok(vec![undefined(&self.heads(), frame.time)]);
             }
         }
         let (mut places, mut moved) = (Vec::new(), Vec::new());
@@ -137,7 +141,9 @@ impl OfFrame for Strain {
                 moved.push(grain.moved(frame));
             }
         }
-        let Some(fit) = Fit::of(&places, &moved) else { return Ok(Vec::new()) };
+        let Some(fit) = Fit::of(&places, &moved) else {
+            return Ok(vec![undefined(&self.heads(), frame.time)]);
+        };
         self.last = Some((frame.time, fit));
         let e = fit.strain();
         let parts = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| e[at]);
@@ -146,8 +152,11 @@ impl OfFrame for Strain {
     }
 
     fn end(&mut self) -> Result<(Vec<Row>, Summary), MeasureError> {
-        let (time, fit) =
-            self.last.ok_or(MeasureError::FewGrains { what: "a mean strain", most: 0, wanted: FEWEST })?;
+        let (time, fit) = self.last.ok_or(MeasureError::FewGrains {
+            what: "a mean strain",
+            most: self.most,
+            wanted: FEWEST,
+        })?;
         let e = fit.strain();
         let summary = Summary::default()
             .with("xx", "1", e[(0, 0)])

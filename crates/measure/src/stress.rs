@@ -10,7 +10,7 @@
 //! counts ([`crate::periodic`]). For a shape around all grains it is the mean stress that follows from the forces on the walls (Weber
 //! 1966, Bull. Liaison Ponts Chauss. 20; Bagi 1996, doi:10.1016/0167-6636(95)00044-5). What grains carry by moving (m v v) is not in it.
 
-use crate::observer::{NO_CONTACTS, Observer, Which};
+use crate::observer::{NO_CONTACTS, Observer};
 use crate::region::Region;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{Bonds, Contacts, Frame, MeasureError, Partner, Run, RunMessage};
@@ -43,25 +43,21 @@ impl Member {
 /// Measures the mean stress in a shape.
 pub struct Stress {
     region: Region,
-    which: Which,
     /// What has come of the present time.
     frame: Option<Frame>,
     contacts: Option<Contacts>,
     bonds: Option<Bonds>,
     last: Option<(f64, Matrix3<f64>)>,
-    /// Times of the first and the last message of contacts [s].
-    span: Option<(f64, f64)>,
 }
 
 impl Stress {
-    /// In a region, at the times between two [s].
+    /// In a region.
     ///
     /// # Errors
     /// A shape without end or without room.
-    pub fn new(region: Region, (from, until): (f64, f64)) -> Result<Stress, MeasureError> {
+    pub fn new(region: Region) -> Result<Stress, MeasureError> {
         region.room()?;
-        let which = Which::Between(from, until);
-        Ok(Stress { region, which, frame: None, contacts: None, bonds: None, last: None, span: None })
+        Ok(Stress { region, frame: None, contacts: None, bonds: None, last: None })
     }
 
     /// What has come of another time than this one is complete.
@@ -129,7 +125,7 @@ impl Observer for Stress {
         Head::list(&[&[("time", "s")], &parts[..]].concat())
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         let time = match &message {
             RunMessage::Frame(frame) => frame.time,
             RunMessage::Contacts(contacts) => contacts.time,
@@ -137,14 +133,10 @@ impl Observer for Stress {
             _ => return Ok(()),
         };
         self.settle(Some(time), rows)?;
-        let wanted = self.which.holds(run, time);
         match message {
-            RunMessage::Contacts(contacts) => {
-                self.span = Some((self.span.map_or(time, |span| span.0), time));
-                self.contacts = Some(contacts).filter(|_| wanted);
-            }
-            RunMessage::Frame(frame) => self.frame = Some(frame).filter(|_| wanted),
-            RunMessage::Bonds(bonds) => self.bonds = Some(bonds).filter(|_| wanted),
+            RunMessage::Contacts(contacts) => self.contacts = Some(contacts),
+            RunMessage::Frame(frame) => self.frame = Some(frame),
+            RunMessage::Bonds(bonds) => self.bonds = Some(bonds),
             _ => {}
         }
         Ok(())
@@ -152,8 +144,7 @@ impl Observer for Stress {
 
     fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
         self.settle(None, rows)?;
-        let span = self.span.ok_or(NO_CONTACTS)?;
-        let (time, stress) = self.last.ok_or_else(|| self.which.missing(span))?;
+        let (time, stress) = self.last.ok_or(NO_CONTACTS)?;
         let [pressure, deviator] = invariants(&stress);
         Ok(Summary::default()
             .with("xx", "Pa", stress[(0, 0)])
@@ -208,9 +199,7 @@ mod tests {
     }
 
     fn stress(shape: &str, frame: Frame, rows: Vec<Contact>) -> Matrix3<f64> {
-        let mut stress =
-            Stress::new(Region::new(shape.parse().unwrap(), 0.0), (f64::NEG_INFINITY, f64::INFINITY))
-                .unwrap();
+        let mut stress = Stress::new(Region::new(shape.parse().unwrap(), 0.0)).unwrap();
         let (run, mut out) = (Run::default(), Vec::new());
         stress.observe(&run, RunMessage::Frame(frame), &mut out).unwrap();
         let contacts = Contacts { time: 0.0, rows };

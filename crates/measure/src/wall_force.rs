@@ -21,8 +21,6 @@ pub struct WallContactFilter {
     pub shape: Option<Shape>,
     /// Only this wall, by name or by index; `None`: all.
     pub wall: Option<String>,
-    /// Only frames between these times [s].
-    pub between: (f64, f64),
 }
 
 impl WallContactFilter {
@@ -59,11 +57,6 @@ impl WallContactFilter {
 
     fn holds_point(&self, run: &Run, point: &Vec3) -> bool {
         self.shape.as_ref().is_none_or(|shape| run.holds(shape, point))
-    }
-
-    /// Whether a time of a run [s] is looked at.
-    pub fn holds(&self, run: &Run, time: f64) -> bool {
-        run.is_between(self.between, time)
     }
 }
 
@@ -193,9 +186,7 @@ impl Observer for WallForce {
             RunMessage::Contacts(contacts) if self.source != Some(Source::Walls) => {
                 self.source = Some(Source::Contacts);
                 rows.extend(self.waiting.take());
-                if self.what.holds(run, contacts.time) {
-                    self.waiting = Some(self.of_contacts(run, &contacts)?);
-                }
+                self.waiting = Some(self.of_contacts(run, &contacts)?);
             }
             RunMessage::WallForces(forces) if self.source == Some(Source::Contacts) => {
                 // The time of contacts is in nanoseconds.
@@ -208,9 +199,7 @@ impl Observer for WallForce {
             }
             RunMessage::WallForces(forces) if self.source != Some(Source::Contacts) => {
                 self.source = Some(Source::Walls);
-                if self.what.holds(run, forces.time) {
-                    rows.push(self.of_walls(&forces)?);
-                }
+                rows.push(self.of_walls(&forces)?);
             }
             _ => {}
         }
@@ -273,8 +262,7 @@ mod tests {
     #[test]
     fn a_servo_run_gives_contacts_in_a_shape_and_shifts_of_the_wall() {
         let shape = Some("box:-1,-1,-0.5,1,1,0.5".parse().unwrap());
-        let between = (f64::NEG_INFINITY, f64::INFINITY);
-        let filter = WallContactFilter { shape, wall: Some("lid".to_owned()), between };
+        let filter = WallContactFilter { shape, wall: Some("lid".to_owned()) };
         let (mut measure, mut rows) = (WallForce::new(filter), Vec::new());
         let run = Run { walls: vec!["lid".to_owned()], ..Run::default() };
         for (time, exact) in [(0.0, 0.0), (0.009998728, 0.0099987276543)] {

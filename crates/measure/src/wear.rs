@@ -161,9 +161,6 @@ impl Observer for Wear {
             self.home.clone_from(&run.spheres.position);
         }
         self.contact_frames += 1;
-        if !self.what.holds(run, contacts.time) {
-            return Ok(());
-        }
         if self.cell.is_none() && run.spheres.position.is_empty() {
             let cure = "give --cell M for a map by cells of space";
             return Err(MeasureError::Channel { topic: record::topic::WALLS, what: "wall spheres", cure });

@@ -30,7 +30,7 @@ fn energy_without_work_stops_a_run() {
     STOPS.refused(
         "hooke, e = 1, at the critical step",
         &explain_halt(&halt),
-        &["guards.energy", "shorten dt", "J"],
+        &["guards.energy", "smaller time.safety", "J"],
     );
     assert!(sim.particles().expect("sound").iter().all(|p| p.velocity.norm().is_finite()));
     assert!(run(1e3).0.is_none(), "a wide limit lets it run");

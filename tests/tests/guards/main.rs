@@ -2,6 +2,7 @@
 //! and ends in a checkpoint with numbers in it that a run can go on from.
 
 mod refused;
+mod remedies;
 mod zones;
 
 use grainpipe_tests::findings::{Case, case};
@@ -179,7 +180,7 @@ fn motion_in_one_step() {
         folder.path(),
         "motion",
         &guard,
-        &["particle 7", "in one step", "shorten dt or raise guards.motion"],
+        &["particle 7", "in one step", "shorten time.dt", "raise guards.motion"],
     );
     exact(folder.path(), "motion", &["--set", "guards.motion=10"]);
 }
@@ -197,7 +198,7 @@ fn numbers_that_are_lost() {
     let toml = HEAD.replace("dt = 1e-5", &format!("dt = {step:e}\ncontacts = \"sampled\""));
     fs::write(folder.path().join("s.toml"), toml).expect("written");
     let wide = ["--set", "guards.motion=10"];
-    let done = stopped(folder.path(), on, &wide, &["t = ", "particle", "shorten dt"]);
+    let done = stopped(folder.path(), on, &wide, &["t = ", "particle", "shorten time.dt"]);
     let said = done.stderr.contains("is not finite") && done.stderr.contains("the checkpoint is of t = ");
     assert!(said && !done.stderr.contains("at (NaN"), "{}", done.stderr);
     // It goes on from a time before, and comes to the same end: nothing of what is lost is in the checkpoint.
@@ -217,7 +218,7 @@ fn speeds_beyond_all_steps() {
             folder.path(),
             &format!("a speed of {speed} m/s"),
             &[],
-            &["particle 7", "in one step", "shorten dt"],
+            &["particle 7", "in one step", "shorten time.dt"],
         );
     }
 }

@@ -8,12 +8,12 @@ use std::path::Path;
 use tempfile::TempDir;
 
 /// A downstream stage: grains fall in at 1 m/s, hit a plate behind the plane, and fly back up.
-fn bounce() -> TempDir {
+pub(super) fn bounce() -> TempDir {
     bounced("1,0,0,0.04,0.01,0,0,-1,0,0,0\n")
 }
 
 /// The same with these grains upstream.
-fn bounced(grains: &str) -> TempDir {
+pub(super) fn bounced(grains: &str) -> TempDir {
     let folder = scene(grains, "");
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
     let head = HEAD.replace("source = \"p.csv\"\n", "").replace("[[particles]]\nmaterial = \"glass\"\n", "");
@@ -36,7 +36,7 @@ fn a_grain_that_comes_back_through_its_inlet() {
         "inlet 0",
         "behind the generation plane",
         "cut the plant farther upstream",
-        "to take such grains out",
+        "to take out grains that came back",
     ];
     stopped(folder.path(), "zones: a grain comes back", &["in.mcap"], &words);
     let off = ["in.mcap", "--set", "guards.zones=false"];
@@ -96,7 +96,7 @@ fn a_grain_that_one_on_its_way_in_runs_into_is_removed() {
 fn a_grain_that_comes_in_too_fast() {
     let folder = bounce();
     fs::copy(folder.path().join("down.toml"), folder.path().join("s.toml")).expect("copied");
-    let words = ["comes in by inlet 0 at 1.0000e0 m/s", "shorten dt, or raise guards.motion"];
+    let words = ["comes in by inlet 0 at 1.0000e0 m/s", "shorten time.dt", "raise guards.motion"];
     stopped(
         folder.path(),
         "zones: a grain too fast for the step",

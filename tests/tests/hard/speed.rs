@@ -107,7 +107,11 @@ fn an_impact_at_100_metres_a_second() {
             );
         }
         let said = impact(&variant, 1e7, 0.5).expect_err("too soft");
-        STOPPED.refused(&variant.name(), &said, &["particle 7", "in one step", "limit 25.0 %", "shorten dt"]);
+        STOPPED.refused(
+            &variant.name(),
+            &said,
+            &["particle 7", "in one step", "limit 25.0 %", "shorten time.dt"],
+        );
     }
 }
 

@@ -192,7 +192,7 @@ fn an_interrupted_sweep_goes_on_from_where_it_was() {
     }
     assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
     let done: Done = child.wait_with_output().unwrap().into();
-    assert_eq!(done.code, 1, "{}", done.stderr);
+    assert_eq!(done.code, 3, "{}", done.stderr);
     assert!(done.stderr.contains("of 300 runs are finished: the same command continues"), "{}", done.stderr);
     let options =
         [&ONE[..], &["--vary", "safety=0.1,0.3,0.5", "--rounds", "2", "--report", "r.json"]].concat();

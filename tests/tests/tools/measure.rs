@@ -4,6 +4,7 @@ mod below_a_hopper;
 mod bonds;
 mod cracks;
 mod flow;
+mod kinds;
 mod made;
 mod refused;
 mod specimen;
@@ -350,7 +351,8 @@ fn times_are_those_that_frames_are_due_at() {
     let times = |words: &[&str]| column(&measure(&folder, &[&["--bed-height"], words].concat()), "time");
     assert_eq!(times(&["--time", "0.1"]), [0.1004]);
     assert_eq!(times(&["--time", "0.3"]), [0.3003]);
-    assert_eq!(times(&["--time", "0.099"]), [0.0]);
+    assert_eq!(times(&["--time", "0.099"]), [0.1004], "the nearest, as in pictures");
+    assert_eq!(times(&["--time", "0.049"]), [0.0]);
     assert_eq!(times(&["--from", "0.2", "--until", "0.3"]), [0.1996, 0.3003]);
 }
 

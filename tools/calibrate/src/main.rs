@@ -58,6 +58,7 @@ fn calibrate(args: Args) -> anyhow::Result<Report> {
 fn refused(error: CalibrateError) -> anyhow::Error {
     match error {
         CalibrateError::Usage(text) => cli::usage(text),
+        signal @ CalibrateError::Signal { .. } => cli::stopped_by_signal(signal.to_string()),
         other => other.into(),
     }
 }

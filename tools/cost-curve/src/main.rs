@@ -71,6 +71,7 @@ fn cost_curve(args: Args) -> anyhow::Result<Report> {
 fn refused(error: CurveError) -> anyhow::Error {
     match error {
         CurveError::Usage(text) => cli::usage(text),
+        CurveError::Signal(why) => cli::stopped_by_signal(why),
         CurveError::At { what, source } => refused(*source).context(what),
         other => other.into(),
     }

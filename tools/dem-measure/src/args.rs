@@ -105,7 +105,7 @@ pub struct Args {
     #[arg(long, group = "measure", value_name = "SIDE", value_parser = side, allow_hyphen_values = true)]
     pub bed_slope: Option<Vec3>,
 
-    /// The last frame at or before S [s], to half a time step
+    /// The frame nearest to S [s], as in dem-view
     #[arg(long, value_name = "S", value_parser = cli::seconds, help_heading = "Which frames")]
     pub time: Option<f64>,
     /// The last frame (repose, profile and forces: the default)

@@ -27,88 +27,96 @@ use measure::stress::Stress;
 use measure::track::Track;
 use measure::wall_force::{WallContactFilter, WallForce};
 use measure::wear::Wear;
-use measure::{Observer, PerFrame, Which};
+use measure::{Observer, PerFrame, Selected, Which};
 use std::path::Path;
 
 /// The option that was given, and what measures.
 pub fn observer(args: &Args) -> anyhow::Result<(&'static str, Box<dyn Observer>)> {
     let between = between(args)?;
-    let series = which(args, Which::ALL, between);
-    let single = which(args, Which::Last, between);
     let name = name(args);
     args.check(name)?;
-    let observer: Box<dyn Observer> = match (args, name) {
+    let (observer, which) = measure_of(args, name, between)?;
+    Ok((name, Box::new(Selected::new(observer, which))))
+}
+
+/// What measures, and the frames that it is given. Flow, cracks and impacts choose among events, which have their own times, and see all frames.
+fn measure_of(
+    args: &Args,
+    name: &'static str,
+    between: (f64, f64),
+) -> anyhow::Result<(Box<dyn Observer>, Which)> {
+    let series = which(args, Which::ALL, between);
+    let single = which(args, Which::Last, between);
+    let events = Which::Events(between.0, between.1);
+    let within = || args.within.as_ref().map(|g| g.shape.clone());
+    let region = |given: &GivenShape| anyhow::Ok(Region::new(given.shape.clone(), volume(given)?));
+    let chosen: (Box<dyn Observer>, Which) = match (args, name) {
         (_, "--repose") => {
-            let within = args.within.as_ref().map(|g| g.shape.clone());
-            Box::new(
-                PerFrame::new(Repose::new(heap(args)).context(name)?, single).within(within).without_fallen(),
-            )
+            let heap = Repose::new(heap(args)).context(name)?;
+            (Box::new(PerFrame::new(heap).within(within()).without_fallen()), single)
         }
         (Args { flow: Some(plane), .. }, _) => {
-            let within = args.within.as_ref().map(|g| g.shape.clone());
-            let options = FlowOptions { plane: *plane, within, span: args.span, between };
-            Box::new(Flow::new(options).context(name)?)
+            let options = FlowOptions { plane: *plane, within: within(), span: args.span, between };
+            (Box::new(Flow::new(options).context(name)?), events)
         }
         (_, "--profile") => {
-            let which = if args.mean { which(args, Which::ALL, between) } else { single };
+            let which = if args.mean { series } else { single };
             let mut options = grid(args)?;
             if options.corners.is_none() && matches!(which, Which::Between(..)) {
                 options.corners = around::corners(args, which, options.turn)?;
             }
-            Box::new(PerFrame::new(Profile::new(options).context(name)?, which))
+            (Box::new(PerFrame::new(Profile::new(options).context(name)?)), which)
         }
         (_, "--segregation") => {
             let kinds = args.kind.clone().map_or(Kinds::Size(args.split), Kinds::Material);
             let measure = Segregation::new(kinds, args.cell, args.up).context(name)?;
-            Box::new(PerFrame::new(measure, series))
+            (Box::new(PerFrame::new(measure)), series)
         }
-        (_, "--energy") => Box::new(Energy::new(between)),
-        (_, "--settling") => Box::new(Settling::new(between)),
-        (_, "--domain") => Box::new(Domain::new(between)),
-        (_, "--bonds") => Box::new(BondNumbers::new(between)),
-        (_, "--cracks") => Box::new(CrackList::new(between)),
-        (_, "--fragments") => Box::new(FragmentList::new(single)),
-        (_, "--grading") => Box::new(Grading::new(series, args.sieves.as_ref().map(|s| s.0.clone()))),
-        (_, "--forces") => Box::new(Forces::new(single, args.on_walls)),
+        (_, "--energy") => (Box::<Energy>::default(), series),
+        (_, "--settling") => (Box::<Settling>::default(), series),
+        (_, "--domain") => (Box::<Domain>::default(), series),
+        (_, "--bonds") => (Box::<BondNumbers>::default(), series),
+        (_, "--cracks") => (Box::new(CrackList::new(between)), events),
+        (_, "--fragments") => (Box::<FragmentList>::default(), single),
+        (_, "--grading") => (Box::new(Grading::new(args.sieves.as_ref().map(|s| s.0.clone()))), series),
+        (_, "--forces") => (Box::new(Forces::new(args.on_walls)), single),
         (Args { porosity: Some(given), .. }, _) => {
-            let region = Region::new(given.shape.clone(), volume(given)?);
-            Box::new(PerFrame::new(
-                Porosity::new(region).context(format!("--porosity {}", given.text))?,
-                series,
-            ))
+            let porosity = Porosity::new(region(given)?).context(format!("--porosity {}", given.text))?;
+            (Box::new(PerFrame::new(porosity)), series)
         }
-        (Args { wall_force: Some(given), .. }, _) => Box::new(WallForce::new(on_walls(args, given, between))),
+        (Args { wall_force: Some(given), .. }, _) => {
+            (Box::new(WallForce::new(on_walls(args, given))), series)
+        }
         (Args { stress: Some(given), .. }, _) => {
-            let region = Region::new(given.shape.clone(), volume(given)?);
-            Box::new(Stress::new(region, between).context(format!("--stress {}", given.text))?)
+            let stress = Stress::new(region(given)?).context(format!("--stress {}", given.text))?;
+            (Box::new(stress), series)
         }
-        (_, "--strain") => {
-            let within = args.within.as_ref().map(|g| g.shape.clone());
-            Box::new(PerFrame::new(Strain::new(within), series))
-        }
-        (Args { plane_force: Some(plane), .. }, _) => Box::new(PlaneForce::new(*plane, between)),
+        (_, "--strain") => (Box::new(PerFrame::new(Strain::new(within()))), series),
+        (Args { plane_force: Some(plane), .. }, _) => (Box::new(PlaneForce::new(*plane)), series),
         (Args { wear: Some(given), .. }, _) => {
-            Box::new(Wear::new(on_walls(args, given, between), args.cell).context(name)?)
+            (Box::new(Wear::new(on_walls(args, given), args.cell).context(name)?), series)
         }
         (Args { track: Some(ids), .. }, _) => {
-            Box::new(PerFrame::new(Track::new(ids).map_err(|e| usage(format!("--track: {e}")))?, series))
+            let track = Track::new(ids).map_err(|e| usage(format!("--track: {e}")))?;
+            (Box::new(PerFrame::new(track)), series)
         }
-        (Args { residence: Some(given), .. }, _) => Box::new(Residence::new(given.shape.clone(), between)),
-        (_, "--impact") => Box::new(Impacts::new(between)),
+        (Args { residence: Some(given), .. }, _) => (Box::new(Residence::new(given.shape.clone())), series),
+        (_, "--impact") => (Box::new(Impacts::new(between)), events),
         (Args { bed_slope: Some(side), .. }, _) => {
-            Box::new(PerFrame::new(BedSlope::new(slope(args, *side)).context(name)?, series).without_fallen())
+            let bed = BedSlope::new(slope(args, *side)).context(name)?;
+            (Box::new(PerFrame::new(bed).without_fallen()), series)
         }
         (Args { radial: Some(axis), .. }, _) => {
-            Box::new(PerFrame::new(Radial::new(radial(args, *axis)?).context(name)?, single).without_fallen())
+            let radial = Radial::new(radial(args, *axis)?).context(name)?;
+            (Box::new(PerFrame::new(radial).without_fallen()), single)
         }
         (_, "--bed-height") => {
-            let within = args.within.as_ref().map(|g| g.shape.clone());
             let height = BedHeight::new(args.up, args.ground);
-            Box::new(PerFrame::new(height, single).within(within).without_fallen())
+            (Box::new(PerFrame::new(height).within(within()).without_fallen()), single)
         }
-        _ => Box::new(ContactNumbers::new(series)),
+        _ => (Box::<ContactNumbers>::default(), series),
     };
-    Ok((name, observer))
+    Ok(chosen)
 }
 
 /// Clap sees to it that one is given.
@@ -211,9 +219,9 @@ fn grid(args: &Args) -> anyhow::Result<ProfileOptions> {
     Ok(ProfileOptions { bins, corners, turn: args.turn_deg, mean: args.mean, fields })
 }
 
-fn on_walls(args: &Args, given: &GivenShape, between: (f64, f64)) -> WallContactFilter {
+fn on_walls(args: &Args, given: &GivenShape) -> WallContactFilter {
     let shape = (given.text != "all").then(|| given.shape.clone());
-    WallContactFilter { shape, wall: args.wall.clone(), between }
+    WallContactFilter { shape, wall: args.wall.clone() }
 }
 
 /// Volume [m³] of what has a file; shapes without one know theirs.

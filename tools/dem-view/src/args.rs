@@ -64,7 +64,7 @@ pub struct Args {
     /// Pictures per second of a film [default: 25]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
     pub fps: Option<u32>,
-    /// Size of a picture or film [pixel] [default: 1920x1080, GIF 960x540]
+    /// Size of a picture or film [pixel], 36 bytes of memory each [default: 1920x1080, GIF 960x540]
     #[arg(long, value_name = "WxH", value_parser = formats::size)]
     pub size: Option<[u32; 2]>,
     /// Opacity of walls in front of grains in the picture, 0 to 1 [default: 0.2]

@@ -73,6 +73,11 @@ fn lay_out(args: &Args, toml: &str, seeds: &[u64]) -> anyhow::Result<Lab> {
 fn refused(error: LabError) -> anyhow::Error {
     match error {
         LabError::Usage(text) => cli::usage(text),
+        signal @ (LabError::Signal { .. } | LabError::Interrupted) => {
+            cli::stopped_by_signal(signal.to_string())
+        }
+        // A program that the same signal has ended.
+        other if cli::stop_requested() => cli::stopped_by_signal(format!("stopped by a signal: {other}")),
         other => other.into(),
     }
 }
@@ -110,7 +115,7 @@ fn run(lab: &Lab, folder: &Path, kept: bool) -> anyhow::Result<Specimens> {
     lab.run(folder, &programs, at_once, &begins, &|| progress.add(1)).map_err(|error| match error {
         signal @ LabError::Signal { .. } => {
             let again = if kept { "the same command continues" } else { "with --dir they would be kept" };
-            anyhow::anyhow!("{signal}: {again}")
+            cli::stopped_by_signal(format!("{signal}: {again}"))
         }
         other => refused(other),
     })

@@ -31,7 +31,7 @@ pub(super) fn tests(
         if !safe {
             return Err(text.refuse(
                 &key.name.span(),
-                format!("name = \"{name}\": give a short name without '/', '\\' and '='"),
+                format!("name = \"{name}\": give a short name without '/', '\\' and '=' that does not begin with '.'"),
             ));
         }
         if tests.iter().any(|t| t.name == *name) {

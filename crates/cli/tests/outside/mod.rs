@@ -1,7 +1,9 @@
 //! What a tool meets outside of itself: limits of memory, and a record of what it reads.
 
 use crate::{names, tool};
+use std::ffi::OsStr;
 use std::fs;
+use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -61,4 +63,31 @@ pub fn threads_of_a_variable(folder: &Path) {
     let done = tool.current_dir(folder).output().unwrap();
     let said = String::from_utf8_lossy(&done.stderr);
     assert!(said.contains(&format!("RAYON_NUM_THREADS 100000: {most} threads are used")), "{said}");
+}
+
+/// A name that is no text, and the longest names.
+pub fn names_of_all_bytes_and_lengths(folder: &Path) {
+    let bytes = |text: &[u8]| OsStr::from_bytes(text).to_owned();
+    let long = |letter: char, end: &str| {
+        bytes(format!("{}{end}", letter.to_string().repeat(255 - end.len())).as_bytes())
+    };
+    let names = [
+        [bytes(b"in\xff.xyz"), bytes(b"out\xff.ply")],
+        [long('a', ".xyz"), long('b', ".ply")],
+        // Letters of two bytes are not cut in the middle.
+        [
+            bytes(format!("i{}.xyz", "\u{fc}".repeat(125)).as_bytes()),
+            bytes(format!("o{}.ply", "\u{fc}".repeat(125)).as_bytes()),
+        ],
+    ];
+    for [from, to] in names {
+        fs::write(folder.join(&from), "0 0 0\n1 0 0\n").unwrap();
+        let mut tool = Command::new(std::env::current_exe().unwrap());
+        tool.arg("copy").arg(&from).arg("-o").arg(&to).env(tool::SWITCH, "1").current_dir(folder);
+        let done = tool.output().unwrap();
+        assert!(done.status.success(), "{from:?}: {}", String::from_utf8_lossy(&done.stderr));
+        assert!(fs::metadata(folder.join(&to)).is_ok_and(|file| file.len() > 0), "{to:?}");
+    }
+    let left = fs::read_dir(folder).unwrap().count();
+    assert_eq!(left, 6, "no part is left");
 }

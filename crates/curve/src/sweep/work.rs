@@ -191,7 +191,7 @@ pub fn run(
         let (done, all) = (jobs.iter().filter(|job| finished(job)).count(), jobs.len());
         let why =
             format!("stopped by a signal: {done} of {all} runs are finished: the same command continues");
-        return Err(CurveError::Failed(why));
+        return Err(CurveError::Signal(why));
     }
     Ok(())
 }

@@ -261,6 +261,8 @@ pub struct Stiffer {
     pub of: String,
     /// Its least value, in `unit`.
     pub value: f64,
+    /// What the hardest impact of the contacts and neighbours of these materials needs, at the fastest approach among them, in `unit`; no less than `value`.
+    pub most: f64,
     /// Pa or N/m.
     pub unit: &'static str,
 }

@@ -125,6 +125,9 @@ pub fn margins(model: &Model, state: &State) -> MarginInputs {
     }
 }
 
+/// Largest margin [m]: the search needs numbers, also where a speed is none; such a particle trips the guard of motion.
+const WIDEST: f64 = 1e74;
+
 /// Notes the position and the margin of each particle that stays, and sorts them.
 fn space_order(model: &Model, state: &mut State) -> (Search, Vec<u32>) {
     let margins = margins(model, state);
@@ -135,7 +138,7 @@ fn space_order(model: &Model, state: &mut State) -> (Search, Vec<u32>) {
             return;
         }
         let row = &rows[k];
-        *home = Row4([row[0], row[1], row[2], margins.of(&row.velocity())]);
+        *home = Row4([row[0], row[1], row[2], margins.of(&row.velocity()).min(WIDEST)]);
     });
     let stay: Vec<u32> = (0..p.len() as u32).filter(|&k| !zones.is_gone(k as usize)).collect();
     let points = each(stay.len(), |n| p.position(stay[n] as usize));

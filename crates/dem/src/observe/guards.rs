@@ -4,6 +4,7 @@ use crate::model::{Entrance, Halt, Model, Partner, Stiffer, With};
 use crate::neighbours::{NeighbourLists, Segment};
 use crate::observe::snapshot::energy;
 use crate::observe::stiffen::{DeepContact, stiffer};
+use crate::passes::ledger::swing;
 use crate::passes::touching::position_before;
 use crate::state::{CellState, ServoState, State};
 use std::ops::Range;
@@ -61,7 +62,7 @@ pub fn check_overlap(
     worst.map_or(Ok(()), |(_, halt)| Err(halt))
 }
 
-/// What would bear the contact in a slot, which overlaps by so much [m].
+/// What would bear the contact in a slot, which overlaps by so much [m], and those near it.
 fn bearing(
     model: &Model,
     state: &State,
@@ -69,18 +70,31 @@ fn bearing(
     (segment, slot): (&Segment, usize),
     overlap: f64,
 ) -> Option<Box<Stiffer>> {
+    let between = model.kinds[segment.kind].between;
+    let alike = lists.slots.segments.iter().filter(|s| model.kinds[s.kind].between == between);
+    let near = alike.flat_map(|s| s.contacts().filter_map(|at| contact(model, state, lists, (s, at))));
+    let deep = DeepContact { overlap, ..contact(model, state, lists, (segment, slot))? };
+    stiffer(model, &deep, near).map(Box::new)
+}
+
+/// What meets in a slot, and how fast.
+fn contact(
+    model: &Model,
+    state: &State,
+    lists: &NeighbourLists,
+    (segment, slot): (&Segment, usize),
+) -> Option<DeepContact> {
     let (p, i) = (&state.particles, lists.slots.i[slot] as usize);
-    let other = lists.partner_row(p, segment, slot);
-    let row = &p.rows[i];
-    let normal = (row.position() - other.position()).try_normalize(0.0)?;
-    let deep = DeepContact {
+    let (row, other) = (&p.rows[i], lists.partner_row(p, segment, slot));
+    let apart = row.position() - other.position();
+    let normal = apart.try_normalize(0.0)?;
+    Some(DeepContact {
         between: model.kinds[segment.kind].between,
         radii: [row[3], other[3]],
         inverse_mass: row[7] + other[7],
-        overlap,
+        overlap: row[3] + other[3] - apart.norm(),
         approach: (other.velocity() - row.velocity()).dot(&normal),
-    };
-    stiffer(model, &deep).map(Box::new)
+    })
 }
 
 /// The particle whose state is lost: where it was listed, from where it has gone less than its margin.
@@ -114,9 +128,9 @@ pub fn check_energy(model: &Model, state: &mut State, lists: &NeighbourLists) ->
     let limit = model.setup.guards.energy;
     let (time, e) = (state.time(), energy(model, state, lists));
     // At the deepest point of an impact and at the top of a flight nothing moves: the largest value so far counts.
-    let peak = &mut state.ledger.peak;
-    *peak = peak.max(e.held());
-    let (made, of) = (e.integration, e.exchanged() + *peak);
+    state.ledger.peak = state.ledger.peak.max(e.held());
+    // What springs swing by comes back, and is bounded by the step: only what stays is made.
+    let (made, of) = (e.integration - swing(model, state, lists), e.exchanged() + state.ledger.peak);
     // Sums of positions far from the origin have no more digits. Written so that NaN is caught.
     let rounding = ROUNDING * (of + e.potential.abs()) + rest(model, state);
     if made <= limit * of + rounding { Ok(()) } else { Err(Halt::Energy { time, made, of, limit }) }

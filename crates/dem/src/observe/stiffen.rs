@@ -16,6 +16,7 @@ use crate::setup::{Setup, Wall};
 const WITHIN: f64 = 0.8;
 
 /// A contact that is too deep.
+#[derive(Clone, Copy)]
 pub struct DeepContact {
     /// Materials of both.
     pub between: (u16, u16),
@@ -69,27 +70,61 @@ impl<'a> Spring<'a> {
     /// What is to be so many times stiffer, for an approach [m/s].
     fn stiffer(&self, times: f64, speed: f64) -> Option<Stiffer> {
         let [a, b] = self.materials;
-        let softest = if b.young < a.young { b } else { a };
         let own = [("stiffness", "N/m"), (MODULI[0], "Pa"), (MODULI[1], "Pa")];
         let own = own.iter().find_map(|(key, unit)| Some((*key, *unit, self.law.number(key)?)));
         let (key, unit, of, value) = match own {
-            Some((key, unit, k)) => (key, unit, format!("{}–{}", a.name, b.name), k),
-            None => ("young", "Pa", softest.name.clone(), softest.young),
+            Some((key, unit, k)) => (key, unit, format!("{}–{}", a.name, b.name), times * k),
+            None => {
+                let (of, young) = moduli(self.materials, times);
+                ("young", "Pa", of, young)
+            }
         };
-        let value = times * value;
-        value.is_finite().then_some(Stiffer { speed, key, of, value, unit })
+        value.is_finite().then_some(Stiffer { speed, key, of, value, most: value, unit })
     }
 }
 
-/// The modulus or stiffness that would bear it; `None` where the law says nothing of that.
-pub fn stiffer(model: &Model, deep: &DeepContact) -> Option<Stiffer> {
+/// The modulus [Pa] with which two materials are so many times stiffer against each other: of the softer one, or of both where it cannot be stiff enough.
+fn moduli([a, b]: [&Material; 2], times: f64) -> (String, f64) {
+    let yields = |m: &Material| 1.0 - m.poisson * m.poisson;
+    let (soft, hard) = if b.young < a.young { (b, a) } else { (a, b) };
+    let compliance = (yields(a) / a.young + yields(b) / b.young) / times;
+    let alone = yields(soft) / (compliance - yields(hard) / hard.young);
+    if a.name != b.name && alone > 0.0 && alone <= hard.young {
+        (soft.name.clone(), alone)
+    } else if a.name == b.name {
+        (a.name.clone(), times * a.young)
+    } else {
+        (format!("{} and {}", a.name, b.name), (yields(a) + yields(b)) / compliance)
+    }
+}
+
+/// What would bear a contact that has passed the guard, and the hardest impact of its `neighbours` at the fastest approach among them; `None` where
+/// the law says nothing of that.
+pub fn stiffer(
+    model: &Model,
+    deep: &DeepContact,
+    neighbours: impl Iterator<Item = DeepContact> + Clone,
+) -> Option<Stiffer> {
+    let this = bears(model, deep)?;
+    let fastest = neighbours.clone().map(|near| near.approach).fold(deep.approach, f64::max);
+    let all = neighbours.filter_map(|near| bears(model, &DeepContact { approach: fastest, ..near }));
+    let most =
+        all.filter(|s| s.key == this.key && s.of == this.of).map(|s| s.value).fold(this.value, f64::max);
+    Some(Stiffer { most, ..this })
+}
+
+/// The modulus or stiffness that would bear a contact.
+fn bears(model: &Model, deep: &DeepContact) -> Option<Stiffer> {
     let [a, b] = deep.radii;
     let (radius, smaller) = if b == 0.0 { (a, a) } else { (a * b / (a + b), a.min(b)) };
-    let share = deep.overlap / smaller;
+    let limit = WITHIN * model.setup.guards.overlap;
+    // What does not touch yet has nothing stored: its spring is that at the limit.
+    let share = if deep.overlap > 0.0 { deep.overlap / smaller } else { limit };
     let spring = Spring::new(&model.setup, deep.between, (radius, smaller), share)?;
     let speed = deep.approach.max(0.0);
-    let energy = spring.stored + 0.5 * speed * speed / deep.inverse_mass;
-    let closer = libm::pow(share / (WITHIN * model.setup.guards.overlap), spring.power + 1.0);
+    let stored = if deep.overlap > 0.0 { spring.stored } else { 0.0 };
+    let energy = stored + 0.5 * speed * speed / deep.inverse_mass;
+    let closer = libm::pow(share / limit, spring.power + 1.0);
     spring.stiffer(energy / spring.stored * closer, speed)
 }
 

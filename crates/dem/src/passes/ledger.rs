@@ -67,6 +67,20 @@ pub fn open(model: &Model, state: &mut State, lists: &NeighbourLists, starting: 
     bring(model, state, lists, starting);
 }
 
+/// What the energy of this instant is above that which velocity Verlet keeps [J]: it swings with the springs, and is no gain.
+///
+/// ```text
+/// ½ v·M v + U − Δt²/8 F·M⁻¹F        is kept where forces are linear in positions
+/// ```
+pub fn swing(model: &Model, state: &State, lists: &NeighbourLists) -> f64 {
+    let sums = state.contacts.sums();
+    let free = (0..state.particles.len()).filter(|&k| is_driven(state, k));
+    let clumps = state.clumps.driven_now(model, state, &sums).map(|(_, d)| d);
+    let driven = free.map(|k| driven_now(model, state, k, &sums)).chain(clumps);
+    let driven = driven.chain(mount::bodies(model, state, lists));
+    0.125 * model.dt * model.dt * driven.map(|d| d.force_squared()).sum::<f64>()
+}
+
 /// Half the work of a power [W] in a step, and what a step's share [J/s²] makes [J].
 fn half(model: &Model, power: f64, share: f64) -> (f64, f64) {
     (0.5 * power * model.dt, 0.125 * share * model.dt * model.dt)

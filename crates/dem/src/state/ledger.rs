@@ -76,6 +76,11 @@ impl DrivenBody {
         self.forces[0].dot(&self.velocity) + self.moment.dot(&self.spin)
     }
 
+    /// F·M⁻¹F, and the same of its rotation [J/s²].
+    pub(crate) fn force_squared(&self) -> f64 {
+        self.forces[1].norm_squared() * self.inverse_mass + self.moment.dot(&self.turning)
+    }
+
     /// m a² − 2 F·a, and the same of its rotation [J/s²]: an eighth of it times Δt² takes ½ F·v to ½ F·v₋, and ½ m v² to ½ m v₋·v₊.
     pub(crate) fn step_share(&self) -> f64 {
         let [contacts, all] = self.forces;

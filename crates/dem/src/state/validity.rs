@@ -11,8 +11,9 @@ use crate::state::{
 
 /// More than anything is counted up to: what is added to it stays a number.
 const MANY: u64 = 1 << 31;
-/// Beyond this no length or speed is meant [m, m/s]: sums of a few of its squares are numbers.
-const HUGE: f64 = 1e150;
+/// Beyond this no number of a state is meant, in SI units: what two of them make together (a spin and an arm, a momentum and an inertia) has squares
+/// that are numbers.
+const HUGE: f64 = 1e74;
 
 /// Whether a part of a state is whole, or the error that names it.
 fn whole(part: &'static str, is: bool) -> Result<(), StateMismatch> {
@@ -82,28 +83,28 @@ fn has_shape(clump: &Option<EntryClump>, setup: &Setup) -> bool {
     clump.is_none_or(|clump| (clump.shape as usize) < setup.clumps.shapes.len())
 }
 
-/// Whether a length or a speed can be meant.
+/// Whether a number of a state can be meant.
 fn is_meant(x: &f64) -> bool {
     x.abs() < HUGE
 }
 
 /// Whether all numbers of a particle can be meant.
-fn is_finite(p: &Particle) -> bool {
+fn has_meaning(p: &Particle) -> bool {
     p.radius > 0.0 && p.position.iter().chain(&p.velocity).chain(&p.spin).chain([&p.radius]).all(is_meant)
 }
 
 /// Whether a particle in a zone can be moved: to a search, a position that is not a number is nowhere.
 fn moves_finitely(t: &ZoneParticle) -> bool {
-    let turns = t.turn.is_none_or(|turn| turn.iter().all(|x| x.is_finite()))
-        && t.turned.is_none_or(|turned| turned.coords.iter().all(|x| x.is_finite()));
+    let turns = t.turn.is_none_or(|turn| turn.iter().all(is_meant))
+        && t.turned.is_none_or(|turned| turned.coords.iter().all(is_meant));
     let numbers = t.centre.iter().chain([&t.since, &t.lead]);
-    turns && is_finite(&t.start) && numbers.copied().all(f64::is_finite)
+    turns && has_meaning(&t.start) && numbers.into_iter().all(is_meant)
 }
 
 /// Whether a sample of a path is made of numbers.
 fn is_sample(sample: &Sample) -> bool {
     let vectors = [&sample.position, &sample.velocity, &sample.spin];
-    sample.time.is_finite() && vectors.into_iter().flatten().all(|x| x.is_finite())
+    is_meant(&sample.time) && vectors.into_iter().flatten().all(is_meant)
 }
 
 impl Zones {
@@ -123,7 +124,7 @@ impl Zones {
             && self.flags_are_valid()
             && self.zone_particles.iter().all(|t| travels(&t.direction) && material(t.start.material))
             && self.zone_particles.iter().all(moves_finitely)
-            && self.pending.iter().all(|e| e.time.is_finite() && is_finite(&e.particle))
+            && self.pending.iter().all(|e| e.time.is_finite() && has_meaning(&e.particle))
             && self.paths.values().all(|path| path.samples.iter().all(is_sample))
             && below(self.pending.iter().map(|e| &e.inlet), inlets)
             && self.pending.iter().all(|e| material(e.particle.material) && has_shape(&e.clump, setup))
@@ -183,16 +184,13 @@ impl RigidClumps {
                 &clump.spin,
                 &clump.place_before,
             ];
-            let finite = numbers
-                .into_iter()
-                .flatten()
-                .chain(&clump.turn)
-                .chain(&clump.turn_before)
-                .all(|x| x.is_finite());
-            let weighs = clump.mass > 0.0
-                && clump.scale > 0.0
-                && clump.inverse_inertia.iter().all(|i| *i > 0.0 && i.is_finite());
-            begins && finite && weighs && members.get(range).is_some_and(|members| members.iter().all(own))
+            let meant =
+                numbers.into_iter().flatten().chain(&clump.turn).chain(&clump.turn_before).all(is_meant);
+            let weighs = [clump.mass, clump.scale]
+                .iter()
+                .chain(&clump.inverse_inertia)
+                .all(|x| *x > 0.0 && is_meant(x));
+            begins && meant && weighs && members.get(range).is_some_and(|members| members.iter().all(own))
         });
         let joined = of.iter().filter(|&&clump| clump != FREE).count();
         [arms.len(), images.len()] == [covered; 2]

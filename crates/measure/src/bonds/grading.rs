@@ -8,41 +8,32 @@
 
 use super::pieces::{Piece, pieces};
 use super::{Bonds, NO_BONDS};
-use crate::observer::{Observer, Which};
+use crate::observer::Observer;
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{Frame, MeasureError, Run, RunMessage};
 
-/// The fragments of the first and of the last frame that count.
+/// The fragments of the first and of the last frame.
+#[derive(Default)]
 struct Ends {
-    which: Which,
     frame: Option<Frame>,
     first: Option<(f64, Vec<Piece>)>,
     last: Option<(f64, Vec<Piece>)>,
-    span: Option<(f64, f64)>,
 }
 
 impl Ends {
-    fn new(which: Which) -> Ends {
-        Ends { which, frame: None, first: None, last: None, span: None }
-    }
-
     /// Frames come before the bonds of their time.
-    fn take(&mut self, run: &Run, message: RunMessage) -> Result<(), MeasureError> {
+    fn take(&mut self, message: RunMessage) -> Result<(), MeasureError> {
         match message {
             RunMessage::Frame(frame) => self.frame = Some(frame),
-            RunMessage::Bonds(bonds) => self.look(run, &bonds)?,
+            RunMessage::Bonds(bonds) => self.look(&bonds)?,
             _ => {}
         }
         Ok(())
     }
 
-    fn look(&mut self, run: &Run, bonds: &Bonds) -> Result<(), MeasureError> {
+    fn look(&mut self, bonds: &Bonds) -> Result<(), MeasureError> {
         let time = bonds.time;
-        self.span = Some((self.span.map_or(time, |s| s.0), time));
-        let Some(frame) = self.frame.as_ref().filter(|f| f.time == time && self.which.holds(run, time))
-        else {
-            return Ok(());
-        };
+        let Some(frame) = self.frame.as_ref().filter(|f| f.time == time) else { return Ok(()) };
         let now = (time, pieces(frame, bonds, frame.periodic.lengths())?);
         if self.first.is_none() {
             self.first = Some(now.clone());
@@ -53,23 +44,13 @@ impl Ends {
 
     /// The first and the last.
     fn both(&self) -> Result<[&(f64, Vec<Piece>); 2], MeasureError> {
-        let span = self.span.ok_or(NO_BONDS)?;
-        match (&self.first, &self.last) {
-            (Some(first), Some(last)) => Ok([first, last]),
-            _ => Err(self.which.missing(span)),
-        }
+        Ok([self.first.as_ref().ok_or(NO_BONDS)?, self.last.as_ref().ok_or(NO_BONDS)?])
     }
 }
 
-/// Lists fragments.
+/// Lists the fragments of the last frame.
+#[derive(Default)]
 pub struct FragmentList(Ends);
-
-impl FragmentList {
-    /// Of the last of these frames.
-    pub fn new(which: Which) -> FragmentList {
-        FragmentList(Ends::new(which))
-    }
-}
 
 impl Observer for FragmentList {
     fn heads(&self) -> Vec<Head> {
@@ -88,8 +69,8 @@ impl Observer for FragmentList {
         ])
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
-        self.0.take(run, message)
+    fn observe(&mut self, _: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
+        self.0.take(message)
     }
 
     fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
@@ -129,10 +110,10 @@ const STEP: f64 = std::f64::consts::SQRT_2;
 const SIEVES: usize = 40;
 
 impl Grading {
-    /// Of the first and the last of these frames, on sieves of these openings [m], the smallest first; `None`: from the largest piece down, each smaller
+    /// Of the first and the last frame, on sieves of these openings [m], the smallest first; `None`: from the largest piece down, each smaller
     /// by √2.
-    pub fn new(which: Which, sieves: Option<Vec<f64>>) -> Grading {
-        Grading { ends: Ends::new(which), sieves }
+    pub fn new(sieves: Option<Vec<f64>>) -> Grading {
+        Grading { ends: Ends::default(), sieves }
     }
 
     fn openings(&self, both: [&[Piece]; 2]) -> Vec<f64> {
@@ -170,8 +151,8 @@ impl Observer for Grading {
         Head::list(&[("sieve", "m"), ("passing_before", "1"), ("passing_after", "1")])
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
-        self.ends.take(run, message)
+    fn observe(&mut self, _: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
+        self.ends.take(message)
     }
 
     fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {

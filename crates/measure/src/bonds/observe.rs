@@ -1,39 +1,38 @@
 //! The bonds of a run over time.
 
 use super::{Bonds, Fragments, NO_BONDS};
-use crate::observer::{Observer, Which};
+use crate::observer::Observer;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
 use geom::counted;
 
 /// Counts bonds.
 pub struct BondNumbers {
-    which: Which,
+    /// Ids of the grains of the last frame, and its time [s].
+    grains: (f64, Vec<u64>),
     /// Time of the frame before [s].
     before: Option<f64>,
     /// Bonds of the frame before, and how many went since with their grains.
     bonds: u64,
     gone: u64,
-    /// Times of the first and the last message [s].
-    span: Option<(f64, f64)>,
     first_break: f64,
     last: Option<Row>,
 }
 
-impl BondNumbers {
-    /// Of the frames between two times [s].
-    pub fn new((from, until): (f64, f64)) -> BondNumbers {
+impl Default for BondNumbers {
+    fn default() -> BondNumbers {
         BondNumbers {
-            which: Which::Between(from, until),
+            grains: (f64::NAN, Vec::new()),
             before: None,
             bonds: 0,
             gone: 0,
-            span: None,
             first_break: f64::NAN,
             last: None,
         }
     }
+}
 
+impl BondNumbers {
     fn row(&mut self, bonds: &Bonds) -> Row {
         let (mut by, mut since, mut largest) = ([0u64; 3], 0u64, [0.0f64; 2]);
         for bond in &bonds.rows {
@@ -49,7 +48,9 @@ impl BondNumbers {
         self.gone += self.bonds.saturating_sub(all);
         (self.bonds, self.before) = (all, Some(bonds.time));
         let broken: u64 = by.iter().sum();
-        let fragments = Fragments::of(&bonds.rows);
+        // Frames come before the bonds of their time.
+        let grains = Some(&self.grains).filter(|grains| grains.0 == bonds.time).map(|grains| &grains.1[..]);
+        let fragments = Fragments::of(grains.unwrap_or_default(), &bonds.rows);
         let counts =
             [all, all - broken, broken, by[0], by[1], by[2], since, fragments.count, fragments.largest];
         let mut row = vec![bonds.time];
@@ -77,21 +78,21 @@ impl Observer for BondNumbers {
         ])
     }
 
-    fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        if let RunMessage::Bonds(bonds) = message {
-            self.span = Some((self.span.map_or(bonds.time, |s| s.0), bonds.time));
-            if self.which.holds(run, bonds.time) {
+    fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        match message {
+            RunMessage::Frame(frame) => self.grains = (frame.time, frame.id),
+            RunMessage::Bonds(bonds) => {
                 let row = self.row(&bonds);
                 self.last = Some(row.clone());
                 rows.push(row);
             }
+            _ => {}
         }
         Ok(())
     }
 
     fn end(&mut self, _: &Run, _: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        let span = self.span.ok_or(NO_BONDS)?;
-        let last = self.last.as_ref().ok_or_else(|| self.which.missing(span))?;
+        let last = self.last.as_ref().ok_or(NO_BONDS)?;
         let summary = Summary::default()
             .with("bonds", "1", last[1])
             .with("broken", "1", last[3])

@@ -1,8 +1,9 @@
 //! Profiles of chosen frames of a run.
 
 use super::{Grid, Turn};
-use crate::observer::{OfFrame, Which};
+use crate::observer::OfFrame;
 use crate::periodic::PeriodicBox;
+use crate::selection::Which;
 use crate::sheet::{Chart, Head, Panel, Row, Summary};
 use crate::{Frame, MeasureError, Run, RunMessage, table};
 use geom::Vec3;
@@ -23,7 +24,7 @@ pub struct ProfileOptions {
     pub fields: Vec<String>,
 }
 
-/// The box around all grains of chosen frames, along the axes of a grid.
+/// The box around all grains of the frames between two times, along the axes of a grid.
 pub struct BoxOfFrames {
     which: Which,
     turn: Option<Turn>,
@@ -39,7 +40,9 @@ impl BoxOfFrames {
     /// Takes what a run has told.
     pub fn take(&mut self, run: &Run, message: &RunMessage) {
         let RunMessage::Frame(frame) = message else { return };
-        if frame.is_empty() || !self.which.holds(run, frame.time) {
+        let chosen =
+            matches!(self.which, Which::Between(from, until) if run.is_between((from, until), frame.time));
+        if frame.is_empty() || !chosen {
             return;
         }
         let bounds = self.turn.map_or_else(|| in_box(frame), |turn| seen_along(frame, turn).bounds());

@@ -53,3 +53,33 @@ pub fn column(table: &Table, name: &str) -> Vec<f64> {
 pub fn last(file: &[u8]) -> Checkpoint {
     Checkpoint::last("a run", file).expect("a checkpoint")
 }
+
+/// A tray of rock in which grains of `[[fill]]` or `[[insert]]` move, under that gravity [m/s²], until a time [s]: what follows is to be added.
+pub fn tray(gravity: &str, until: f64) -> String {
+    format!(
+        r#"gravity = [{gravity}]
+[time]
+until = {until}
+[output]
+every = 0.01
+checkpoint = 0.02
+energy = true
+contacts = true
+[[material]]
+name = "rock"
+density = 2600
+young = 2e6
+poisson = 0.25
+[[contact]]
+between = ["*", "*"]
+restitution = 0.4
+sliding_friction = 0.5
+rolling_resistance = 0.1
+[[wall]]
+name = "tray"
+box = [0, 0, 0, 0.06, 0.06, 0.2]
+faces = ["x-", "x+", "y-", "y+", "z-"]
+material = "rock"
+"#
+    )
+}

@@ -1,6 +1,6 @@
 //! Every error of the engine: its own text states a fact; the scene's adds the key and the remedy.
 
-use super::{explain_halt, explain_setup_error};
+use super::{Remedy, explain_halt, explain_setup_error};
 use dem::setup::{Clusters, Precision};
 use dem::simd::Width;
 use dem::*;
@@ -199,7 +199,8 @@ fn halts() -> Vec<Advice<Halt>> {
     let position = geom::Vec3::new(1.0, 2.0, 3.0);
     let (by, insert) = (Entrance::Inlet(1), Entrance::Insert(0));
     let wall = || Partner::Wall(floor());
-    let stiffer = Stiffer { speed: 3.0, key: "young", of: "glass".to_owned(), value: 2e7, unit: "Pa" };
+    let stiffer =
+        Stiffer { speed: 3.0, key: "young", of: "glass".to_owned(), value: 2e7, most: 5e7, unit: "Pa" };
     let stiffer = Some(Box::new(stiffer));
     vec![
         (
@@ -211,8 +212,8 @@ fn halts() -> Vec<Advice<Halt>> {
             &["particle 7", "inlet 1", "--ahead", "raise guards.overlap"],
         ),
         (Halt::Motion { time, id, position, motion: 0.1, share, limit }, &["particle 7", "guards.motion"]),
-        (Halt::NotANumber { time, id, position }, &["particle 7", "shorten dt"]),
-        (Halt::WallNotANumber { time, wall: floor(), push: 8.0 }, &[WALL, "8e0 N", "shorten dt"]),
+        (Halt::NotANumber { time, id, position }, &["particle 7", "shorten time.dt"]),
+        (Halt::WallNotANumber { time, wall: floor(), push: 8.0 }, &[WALL, "8e0 N", "shorten time.dt"]),
         (
             Halt::WallPastAll { time, wall: floor(), shift: 0.5 },
             &[WALL, "5.0000e-1 m", "wall.servo.direction"],
@@ -239,7 +240,7 @@ fn halts() -> Vec<Advice<Halt>> {
                 critical: 0.01,
                 particle: BondedParticle { id, material: "rock".to_owned(), radius: 0.1 },
             },
-            &["particle 7 (rock", "1.0000e-2 s", "shorten dt"],
+            &["particle 7 (rock", "1.0000e-2 s", "smaller time.safety"],
         ),
         (
             Halt::Bonds { time, error: Box::new(SetupError::BondOfZeroLength { ids: [7, 8] }) },
@@ -346,4 +347,14 @@ fn numbers_outside_their_range_have_the_keys_of_scenes() {
     let text =
         explain_setup_error(&out_of_range(Subject::Wall(floor()), "material", Allowed::IndexOf("materials")));
     assert!(text.ends_with("the scene's materials"), "{text}");
+}
+
+/// Every remedy is listed once.
+#[test]
+fn all_remedies_are_listed() {
+    let numbers: Vec<usize> = Remedy::ALL.iter().map(|remedy| *remedy as usize).collect();
+    assert_eq!(numbers, (0..=Remedy::MoveOne as usize).collect::<Vec<_>>());
+    for (halt, _) in halts() {
+        assert!(!Remedy::of(&halt).is_empty(), "{halt}");
+    }
 }

@@ -4,8 +4,16 @@ use super::Check;
 use crate::error::Result;
 use crate::keys::SceneKeys;
 
+/// Most materials: every pair of them has a law, of about 700 bytes.
+const MOST: usize = 1000;
+
 impl Check<'_> {
     pub(super) fn materials(&self, m: &SceneKeys) -> Result<()> {
+        if m.material.len() > MOST {
+            let (value, key) = (format!("\"{}\"", m.material[MOST].name), format!("material.{MOST}.name"));
+            let why = format!("is one of {} materials, and {MOST} are the most", m.material.len());
+            return Err(self.wrong(&key, value, &why, "leave out those that nothing is made of"));
+        }
         for (i, material) in m.material.iter().enumerate() {
             let key = |k: &str| format!("material.{i}.{k}");
             if m.material[..i].iter().any(|o| o.name == material.name) {

@@ -3,7 +3,7 @@
 use crate::error::{Result, SceneError};
 use stream::{MOST_COLUMNS, Table, Values};
 
-/// A table of text: names on the first line, commas or blanks between, `#` starts a comment.
+/// A table of text: names on the first line, commas or blanks between, `#` starts a comment. Names and numbers may stand in quotes.
 pub(super) fn csv(name: &str, bytes: &[u8]) -> Result<Table> {
     let wrong = |why: String| {
         SceneError::file(name, why, "wanted: a line of names such as id,x,y,z,radius, then numbers")
@@ -12,7 +12,8 @@ pub(super) fn csv(name: &str, bytes: &[u8]) -> Result<Table> {
     let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes));
     let text = text.map_err(|e| wrong(format!("byte {}: is not text, PLY or MCAP", e.valid_up_to())))?;
     let between = |c: char| c == ',' || c == ';' || c.is_whitespace();
-    let split = |line| str::split(line, between).filter(|f| !f.is_empty()).collect::<Vec<_>>();
+    let unquoted = |field| str::strip_prefix(field, '"').and_then(|f| f.strip_suffix('"')).unwrap_or(field);
+    let split = |line| str::split(line, between).filter(|f| !f.is_empty()).map(unquoted).collect::<Vec<_>>();
     let lines = text.lines().enumerate().map(|(n, l)| (n + 1, l.split('#').next().unwrap_or("").trim()));
     let mut lines = lines.filter(|(_, l)| !l.is_empty());
     let Some((_, head)) = lines.next() else { return Err(wrong("is empty".into())) };

@@ -305,6 +305,10 @@ mod tests {
         let note =
             "pl.csv: column 'v_z' is not used; known: id x y z radius diameter vx vy vz wx wy wz cluster";
         assert_eq!(found.warning.as_deref(), Some(note));
+        // As spreadsheets and data frames write it.
+        let quoted = b"\"id\",\"x\",\"y\",\"z\",\"radius\"\n\"4\",0,1,\"2\",0.5\n";
+        let first = file("q.csv", quoted).unwrap().particles[0];
+        assert_eq!((first.id, first.position.z, first.radius), (4, 2.0, 0.5));
         for (text, part) in
             [("1,2,3", "names is missing"), ("x,y\n1", "line 2: 1 numbers"), ("x\na", "'a' is not a number")]
         {

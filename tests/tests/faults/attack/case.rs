@@ -59,11 +59,17 @@ pub enum Outcome {
     RawText,
     /// What was added changed nothing, and nothing said so.
     Silent,
+    /// A name became a command, or broke the output.
+    Unquoted,
+    /// What a message said to do did not help.
+    NoRemedy,
+    /// A result of other inputs was used again.
+    Stale,
 }
 
 impl Outcome {
     /// Every outcome, in the order of the page's columns.
-    pub const ALL: [Outcome; 10] = [
+    pub const ALL: [Outcome; 13] = [
         Outcome::Accepted,
         Outcome::Refused,
         Outcome::Panicked,
@@ -74,6 +80,9 @@ impl Outcome {
         Outcome::NotFinite,
         Outcome::RawText,
         Outcome::Silent,
+        Outcome::Unquoted,
+        Outcome::NoRemedy,
+        Outcome::Stale,
     ];
 
     /// Whether this must not happen.
@@ -105,26 +114,55 @@ impl Case {
     /// When the folder cannot be made or bash cannot be started.
     pub fn run(self) -> (Case, Verdict) {
         let folder = tempfile::tempdir().expect("a folder");
-        let at = |name: &str| folder.path().join(name);
-        for (name, bytes) in &self.files {
-            let to = at(name);
-            fs::create_dir_all(to.parent().expect("a folder")).expect("made");
-            fs::write(to, bytes).expect("written");
-        }
-        let create = |name: &str| File::create(at(name)).expect("created");
-        let mut command = Command::new("bash");
-        // No core dumps: an abort would take longer to write one than to run. A hard limit of time would end it with the signal of too little memory.
-        let memory = self.memory.unwrap_or(MEMORY);
-        let limits = format!("ulimit -c 0; ulimit -S -t {TIME}; ulimit -v {memory}");
-        command.args(["-c", &format!("{limits}; exec \"$0\" \"$@\"")]);
-        command.arg(program(self.tool)).args(&self.args).args(["--threads", "2"]);
-        command.current_dir(folder.path()).stdin(Stdio::null());
-        command.stdout(create("stdout")).stderr(create("stderr"));
-        let status = wait(&mut command);
-        let stderr = String::from_utf8_lossy(&fs::read(at("stderr")).expect("written")).into_owned();
+        write(folder.path(), &self.files);
+        let (status, stderr) = bounded(folder.path(), "", self.memory, self.tool, &self.args);
         let outcome = judge(status, &stderr, folder.path());
+        (self, Verdict::new(outcome, &stderr))
+    }
+}
+
+impl Verdict {
+    /// With the first line of what was printed.
+    pub fn new(outcome: Outcome, stderr: &str) -> Verdict {
         let message = stderr.lines().find(|l| !l.trim().is_empty()).unwrap_or_default();
-        (self, Verdict { outcome, message: message.escape_debug().take(300).collect() })
+        Verdict { outcome, message: message.escape_debug().take(300).collect() }
+    }
+}
+
+/// Calls a tool in a folder with bounded memory [kB] and time, behind words of the shell; its exit status, none of a tool that waits for ever, and what
+/// it printed.
+///
+/// # Panics
+/// When bash cannot be started.
+pub fn bounded(
+    folder: &Path,
+    before: &str,
+    memory: Option<u32>,
+    tool: &str,
+    args: &[String],
+) -> (Option<ExitStatus>, String) {
+    let create = |name: &str| File::create(folder.join(name)).expect("created");
+    let mut command = Command::new("bash");
+    // No core dumps: an abort would take longer to write one than to run. A hard limit of time would end it with the signal of too little memory.
+    let limits = format!("ulimit -c 0; ulimit -S -t {TIME}; ulimit -v {}", memory.unwrap_or(MEMORY));
+    command.args(["-c", &format!("{limits}; {before} exec \"$0\" \"$@\"")]);
+    command.arg(program(tool)).args(args).args(["--threads", "2"]);
+    command.current_dir(folder).stdin(Stdio::null());
+    command.stdout(create("stdout")).stderr(create("stderr"));
+    let status = wait(&mut command);
+    let stderr = fs::read(folder.join("stderr")).expect("written");
+    (status, String::from_utf8_lossy(&stderr).into_owned())
+}
+
+/// Writes files into a folder.
+///
+/// # Panics
+/// Where they cannot be written.
+pub fn write(folder: &Path, files: &[(String, Vec<u8>)]) {
+    for (name, bytes) in files {
+        let to = folder.join(name);
+        fs::create_dir_all(to.parent().expect("a folder")).expect("made");
+        fs::write(to, bytes).expect("written");
     }
 }
 
@@ -145,7 +183,8 @@ fn wait(command: &mut Command) -> Option<ExitStatus> {
     }
 }
 
-fn judge(status: Option<ExitStatus>, stderr: &str, folder: &Path) -> Outcome {
+/// What became of a call, by what it left in its folder.
+pub fn judge(status: Option<ExitStatus>, stderr: &str, folder: &Path) -> Outcome {
     let Some(status) = status.filter(|s| s.signal() != Some(SIGXCPU)) else { return Outcome::TimedOut };
     if stderr.contains("panicked at") {
         return Outcome::Panicked;

@@ -29,7 +29,7 @@ pub const CALLS: &[(&str, &str)] = &[
     ("lab-test", "direct-shear soil.toml --stress 1kPa --size 0.06 --print-preparation"),
     ("lab-test", "triaxial soil.toml --print-scene"),
     ("lab-test", "repose soil.toml --print-preparation"),
-    ("stone-clean", "library/rock_1_1.ply --cells 12 -o out.ply"),
+    ("stone-clean", "library/rock_1_1.ply --cells 16 -o out.ply"),
     ("stone-clump", "library/rock_1_1.ply --spheres 3 -o out.toml"),
     ("stone-hull", "photographs --masks masks --turntable turntable.toml --cells 12 -o out.ply"),
     ("stone-library", "pebble.ply -o out"),
@@ -42,7 +42,7 @@ pub const CALLS: &[(&str, &str)] = &[
 
 /// Calls that read a damaged file, as `FILE`, or by its name.
 pub const MESH: &[&str] = &[
-    "stone-clean FILE --cells 12 -o out.ply",
+    "stone-clean FILE --cells 16 -o out.ply",
     "stone-clean FILE -o out.ply",
     "stone-clump FILE --spheres 3 -o out.csv",
     "stone-clump FILE --measures",

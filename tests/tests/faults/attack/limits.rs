@@ -1,9 +1,7 @@
 //! Every tool with less memory than it needs: a message, an exit code of the contract, and no output that only looks whole.
 
 use super::case::Case;
-use super::options::{CALLS, files_of};
-use super::{files, folders};
-use crate::samples;
+use super::options::calls;
 
 /// Limits of address space [kB]: from little more than a program itself to more than the samples need.
 const MEMORY: [u32; 14] = [
@@ -13,18 +11,14 @@ const MEMORY: [u32; 14] = [
 
 /// All cases: tools × limits.
 pub fn cases() -> Vec<Case> {
-    let mut shared = files::others();
-    let run = samples::mcap().into_iter().find(|s| s.0 == "run.mcap").expect("a run").1;
-    shared.push(("run.mcap".into(), run));
-    let examples = folders::files();
     let mut cases = Vec::new();
-    for &(tool, call) in CALLS.iter().chain(folders::CALLS) {
+    for call in calls() {
         for memory in MEMORY {
             cases.push(Case {
                 group: "memory",
-                tool,
-                args: call.split(' ').map(str::to_owned).collect(),
-                files: files_of(tool, &shared, &examples),
+                tool: call.tool,
+                args: call.args.clone(),
+                files: call.files.clone(),
                 change: format!("ulimit -v {memory}"),
                 memory: Some(memory),
             });

@@ -1,8 +1,10 @@
-//! An attack on the tools as programs: damaged files, absurd values for every key and option, too little memory, killed partners of a pipe.
+//! An attack on the tools as programs: damaged files, absurd values for every key and option, too little memory, signals, modes of files, hostile names, changed inputs, what
+//! messages say to do, killed partners of a pipe.
 //!
 //! Each case is one call with bounded memory and time ([`case`]). `make -C pipelines attack` runs tens of thousands of them and writes
 //! docs/reliability.md; the test runs a short form with another seed. A seed gives the same cases on every machine.
 
+pub mod caches;
 pub mod case;
 #[allow(dead_code)]
 #[path = "../../tools/every_option/files.rs"]
@@ -17,9 +19,13 @@ pub mod files;
 pub mod folders;
 pub mod kills;
 pub mod limits;
+pub mod modes;
 pub mod mutate;
+pub mod names;
 pub mod options;
+pub mod remedies;
 pub mod scenes;
+pub mod signals;
 pub mod silent;
 pub mod values;
 
@@ -48,6 +54,11 @@ impl Findings {
         }
     }
 
+    /// Counts verdicts of one kind of case.
+    pub fn all(&mut self, group: &'static str, verdicts: Vec<(String, Verdict)>) {
+        verdicts.into_iter().for_each(|(name, verdict)| self.add(group, name, verdict));
+    }
+
     /// Counts one outcome.
     pub fn add(&mut self, group: &'static str, name: String, verdict: Verdict) {
         *self.totals.entry(group).or_default().entry(verdict.outcome).or_default() += 1;
@@ -63,7 +74,7 @@ impl Findings {
 
     /// A Markdown table: a row for each kind of case, a column for each outcome.
     pub fn table(&self) -> String {
-        let titles = "accepted | refused | panic | killed | too long | no message | half output | not finite | raw text | silent";
+        let titles = "accepted | refused | panic | killed | too long | no message | half output | not finite | raw text | silent | unquoted | no remedy | stale";
         let mut table =
             format!("| what | cases | {titles} |\n|---|{}\n", "---:|".repeat(Outcome::ALL.len() + 1));
         for (group, totals) in &self.totals {

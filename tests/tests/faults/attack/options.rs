@@ -55,19 +55,40 @@ pub fn files_of(tool: &str, shared: &[CaseFile], examples: &[CaseFile]) -> Vec<C
     if CALLS.iter().any(|call| call.0 == tool) { shared.to_vec() } else { folders::of(examples, tool) }
 }
 
+/// A call of a tool that succeeds.
+pub struct Call {
+    /// The tool.
+    pub tool: &'static str,
+    /// Its arguments.
+    pub args: Vec<String>,
+    /// The files that it reads.
+    pub files: Vec<CaseFile>,
+}
+
+/// A call of each tool that succeeds, with its files.
+///
+/// # Panics
+/// When the files cannot be made.
+pub fn calls() -> Vec<Call> {
+    let mut shared = files::others();
+    let run = samples::mcap().into_iter().find(|s| s.0 == "run.mcap").expect("a run").1;
+    shared.push(("run.mcap".into(), run));
+    let examples = folders::files();
+    let one = |&(tool, call): &(&'static str, &str)| {
+        let args = call.split(' ').map(str::to_owned).collect();
+        Call { tool, args, files: files_of(tool, &shared, &examples) }
+    };
+    CALLS.iter().chain(folders::CALLS).map(one).collect()
+}
+
 /// All cases: tools × options × values.
 pub fn cases() -> Vec<Case> {
-    let mut shared = files::others();
-    shared
-        .push(("run.mcap".into(), samples::mcap().into_iter().find(|s| s.0 == "run.mcap").expect("a run").1));
-    let examples = folders::files();
     let mut cases = Vec::new();
-    for (tool, call) in CALLS.iter().chain(folders::CALLS) {
-        let files = files_of(tool, &shared, &examples);
+    for Call { tool, args: call, files } in calls() {
         for Flag { name, takes_value } in flags(tool) {
             let values = if takes_value { values::OPTION.map(Some).to_vec() } else { vec![None] };
             for value in values {
-                let mut args: Vec<String> = call.split(' ').map(str::to_owned).collect();
+                let mut args = call.clone();
                 // A second --spacing would be refused as a second one.
                 if let Some(at) = args.iter().position(|a| *a == name) {
                     args.drain(at..(at + 2).min(args.len()));

@@ -55,7 +55,7 @@ servo = { direction = [0, 0, -1], force = 1, speed_limit = 0.1 }
 "#;
 
 /// Keys as `--set` names them.
-fn keys() -> Vec<String> {
+pub fn keys() -> Vec<String> {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR"));
     let docs = docs.ancestors().map(|d| d.join("docs/scene.md")).find(|d| d.exists()).expect("docs/scene.md");
     let text = fs::read_to_string(docs).expect("text");
@@ -103,4 +103,9 @@ pub fn cases() -> Vec<Case> {
         }
     };
     keys().iter().flat_map(|key| values::KEY.map(|value| one(key, value))).collect()
+}
+
+/// The scene whose keys are changed, and its name.
+pub fn file() -> (String, Vec<u8>) {
+    ("all.toml".to_owned(), SCENE.as_bytes().to_vec())
 }

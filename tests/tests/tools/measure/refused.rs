@@ -54,7 +54,7 @@ const OF_ONE_FRAME: &[Case] = &[
     Case { arguments: &["--segregation"], parts: &["frames hold at most 1 grains, and mixing needs 2"] },
     Case {
         arguments: &["--time", "-1", "--porosity", "sphere:0,0,0,1"],
-        parts: &["no frame at or before -1 s", "from 0 to 0 s"],
+        parts: &["no frame at -1 s", "from 0 to 0 s"],
     },
     Case { arguments: &["--profile", "--turn-deg", "y,0"], parts: &["--turn-deg", "such as y,30"] },
     Case {

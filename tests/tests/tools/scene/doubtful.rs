@@ -194,3 +194,19 @@ fn grains_beyond_the_open_side_of_a_box_are_told() {
     ];
     warns(&bin("0.05"), ONE, &told);
 }
+
+/// Of a key that is set twice the last value counts, and a warning has both.
+#[test]
+fn a_key_that_is_set_twice() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), super::SCENE).unwrap();
+    let sets = ["--set", "time.until=0.5", "--set", "gravity=[0,0,0]", "--set", "time.until=0.25"];
+    let done = tool(folder.path(), "dem-run", &[&["s.toml", "--check"], &sets[..]].concat());
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let twice = "--set time.until=0.5: is set again, and time.until=0.25 counts";
+    assert!(
+        done.stderr.contains(twice) && done.stderr.matches("is set again").count() == 1,
+        "{}",
+        done.stderr
+    );
+}

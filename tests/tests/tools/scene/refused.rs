@@ -433,3 +433,20 @@ fn bonds_that_cannot_be_made_are_refused() {
             .for_each(|part| assert!(done.stderr.contains(part), "{keys}: '{part}': {}", done.stderr));
     }
 }
+
+/// Every pair of materials has a law: too many are refused before that takes all memory.
+#[test]
+fn too_many_materials() {
+    let folder = tempdir().unwrap();
+    let one = |k: u32| format!("[[material]]\nname = \"m{k}\"\nyoung = 1e7\npoisson = 0.2\n");
+    let many: String = (0..1001).map(one).collect();
+    let scene = format!("{many}[[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 0.5\n");
+    fs::write(folder.path().join("s.toml"), scene).unwrap();
+    let done = tool(folder.path(), "dem-run", &["s.toml", "--check"]);
+    assert_eq!(done.code, 1, "{}", done.stderr);
+    assert!(
+        done.stderr.contains("material.1000.name = \"m1000\"") && done.stderr.contains("1001 materials"),
+        "{}",
+        done.stderr
+    );
+}
