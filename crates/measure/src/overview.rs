@@ -18,6 +18,7 @@ pub(crate) const CURVES: usize = 8;
 const TERMS: usize = 6;
 
 /// Reads a run for its curves.
+#[derive(Default)]
 pub struct Overview {
     energy: (Energy, Vec<Row>),
     bonds: (BondNumbers, Vec<Row>),
@@ -27,18 +28,6 @@ pub struct Overview {
     walls: Vec<(String, Vec<[f64; 2]>)>,
     /// Of each outlet, time [s] and mass that has passed [kg].
     outlets: Vec<Vec<[f64; 2]>>,
-}
-
-impl Default for Overview {
-    fn default() -> Overview {
-        Overview {
-            energy: (Energy::new(), Vec::new()),
-            bonds: (BondNumbers::default(), Vec::new()),
-            grains: Vec::new(),
-            walls: Vec::new(),
-            outlets: Vec::new(),
-        }
-    }
 }
 
 impl Overview {

@@ -17,8 +17,11 @@ const SIGNALS: [(&str, i32); 4] = [("INT", 2), ("TERM", 15), ("HUP", 1), ("QUIT"
 /// Exit code of a tool that ended in order.
 const STOPPED: i32 = 3;
 
+/// The files of a folder by their names.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
 /// Files in a folder and below, with their bytes.
-pub fn held(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub fn held(folder: &Path) -> Files {
     let mut found = BTreeMap::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(next) = folders.pop() {
@@ -41,7 +44,7 @@ fn judge(
     status: Option<ExitStatus>,
     signal: i32,
     folder: &Path,
-    (inputs, whole): (&BTreeMap<String, Vec<u8>>, &BTreeMap<String, Vec<u8>>),
+    (inputs, whole): (&Files, &Files),
 ) -> Outcome {
     let Some(code) = status.and_then(|s| s.code()) else { return Outcome::Killed };
     let after = held(folder);

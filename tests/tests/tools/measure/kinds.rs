@@ -157,7 +157,7 @@ fn all_measures_mean_the_same_frames() {
             assert!(said.contains("no frame from 5 to 6 s"), "{on}: {said}");
         }
         let grains = |t: f64| run.table("/particles", t).is_some_and(|table| table.rows() > 0);
-        let last = times.iter().copied().filter(|t| grains(*t)).next_back().unwrap();
+        let last = times.iter().copied().rfind(|t| grains(*t)).unwrap();
         for words in SINGLE {
             let on = format!("{kind} {}", words.join(" "));
             let found = column(&measure(&run.folder, &[words, &["--last"][..]].concat()), "time");
