@@ -1,8 +1,10 @@
 //! Inputs: a file, or `-` for stdin, with the name that messages use.
 
 use crate::exit::usage;
+use crate::placing::Placing;
 use anyhow::Context;
 use cloud::points::ReadWarning;
+use cloud::units::UnitWarning;
 use geom::number::NumberError;
 use std::{
     convert::Infallible,
@@ -147,6 +149,9 @@ pub struct Input {
     /// What a length in it is.
     #[command(flatten)]
     pub lengths: Lengths,
+    /// Where it is put.
+    #[command(flatten)]
+    pub placing: Placing,
 }
 
 /// What a length in a file is: flatten it into the arguments of a tool that reads geometry.
@@ -247,24 +252,31 @@ impl Input {
         Ok((self.in_metres(cloud), ("cloud".to_owned(), from.sha256())))
     }
 
-    /// Says what the reader noticed, and scales the cloud or warns of implausible numbers. In a pipe only the first tool warns.
+    /// Says what the reader noticed, scales and moves the cloud, and warns of implausible numbers. In a pipe only the first tool warns.
     fn in_metres(&self, mut cloud: cloud::Cloud) -> cloud::Cloud {
-        let is_answered = |w: &ReadWarning| self.lengths.factor().is_some() && w.is_answered_by_scale();
+        let is_scaled = self.lengths.factor().is_some() || self.placing.scales();
+        let is_answered = |w: &ReadWarning| is_scaled && w.is_answered_by_scale();
         for warning in std::mem::take(&mut cloud.warnings).iter().filter(|w| !is_answered(w)) {
             crate::warn(&format!("{}: {warning}", self.name()));
         }
         if let Some(factor) = self.lengths.factor().filter(|factor| *factor != 1.0) {
             cloud.scale(factor);
         }
-        if self.cloud != Source::Stdin {
-            self.warn_about(&cloud::units::warnings(&cloud));
+        // Digits that are missing in the file are missing where it is moved to, too; places are named where they are then.
+        let is_short = |w: &UnitWarning| matches!(w, UnitWarning::Short { .. });
+        let mut found = cloud::units::warnings(&cloud);
+        if self.placing.transform().is_some() {
+            found.retain(is_short);
+            self.placing.cloud(&mut cloud, &self.name());
+            found.extend(cloud::units::warnings(&cloud));
         }
+        self.warn_about(&found);
         cloud
     }
 
     /// Warns of implausible numbers of a cloud, unless the scale is given or another tool has warned.
     pub fn warn_about(&self, warnings: &[cloud::units::UnitWarning]) {
-        let is_scaled = self.lengths.factor().is_some();
+        let is_scaled = self.lengths.factor().is_some() || self.placing.scales();
         if self.cloud != Source::Stdin {
             let open = warnings.iter().filter(|w| !(is_scaled && w.is_answered_by_scale()));
             open.for_each(|warning| crate::warn(&format!("{}: {warning}", self.name())));

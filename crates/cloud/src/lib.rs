@@ -21,6 +21,7 @@ mod levels;
 mod local_spacing;
 mod loops;
 pub mod merge;
+mod moved;
 mod near;
 pub mod outer;
 pub mod outliers;

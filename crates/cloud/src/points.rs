@@ -62,6 +62,14 @@ const FARTHEST: f64 = 1e9;
 /// First word of a comment that says where a scanner stood.
 const VIEWPOINT: &str = "viewpoint";
 
+/// First words of a comment that names the system that coordinates are in.
+pub(crate) const SYSTEM: &str = "coordinate reference system";
+
+/// Whether a comment says where a scanner stood.
+pub(crate) fn is_viewpoint(line: &str) -> bool {
+    viewpoint(line).is_some()
+}
+
 /// The position [m] in a comment that says where a scanner stood.
 fn viewpoint(line: &str) -> Option<Vec3> {
     let mut words = line.split_whitespace();
@@ -116,7 +124,7 @@ impl Cloud {
         self.points.iter_mut().for_each(|p| *p *= factor);
         self.double = true;
         let viewpoints: Vec<Vec3> = self.viewpoints().collect();
-        self.comments.retain(|line| viewpoint(line).is_none());
+        self.comments.retain(|line| !is_viewpoint(line));
         viewpoints.iter().for_each(|eye| self.add_viewpoint(&(eye * factor)));
         self.comments.push(format!("{SCALED} {factor}"));
     }

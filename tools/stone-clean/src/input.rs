@@ -11,11 +11,12 @@ pub enum Read {
 }
 
 /// Reads a mesh; bytes that are none are read as a cloud.
-pub fn read(bytes: &[u8], factor: Option<f64>) -> anyhow::Result<Read> {
+pub fn read(bytes: &[u8], factor: Option<f64>, placing: &cli::Placing) -> anyhow::Result<Read> {
     let factor = factor.unwrap_or(1.0);
     match mesh::from_bytes(bytes) {
         Ok(mut mesh) => {
             mesh.scale(factor);
+            placing.mesh(&mut mesh, "the mesh");
             return Ok(Read::Mesh(mesh));
         }
         Err(MeshFileError::NoFaces | MeshFileError::Unknown { .. } | MeshFileError::Ply(_)) => {}
@@ -32,6 +33,7 @@ pub fn read(bytes: &[u8], factor: Option<f64>) -> anyhow::Result<Read> {
         cloud = cloud.select(&places);
     }
     cloud.scale(factor);
+    placing.cloud(&mut cloud, "the cloud");
     let column = |name| cloud.attributes.get(name);
     let normals = match (column("nx"), column("ny"), column("nz")) {
         (Some(x), Some(y), Some(z)) => {

@@ -23,6 +23,8 @@ struct Args {
     input: cli::Source,
     #[command(flatten)]
     lengths: cli::Lengths,
+    #[command(flatten)]
+    placing: cli::Placing,
     /// Faces of the result, at most [default: as many as come]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(4..=2_000_000))]
     faces: Option<u32>,
@@ -43,14 +45,14 @@ fn stone_clean(args: Args) -> anyhow::Result<Report> {
     }
     let settings =
         CleanSettings { faces: args.faces.map(|f| f as usize), cells: args.cells.map(|c| c as usize) };
-    let read = input::read(&args.input.read_all()?, args.lengths.factor())
+    let read = input::read(&args.input.read_all()?, args.lengths.factor(), &args.placing)
         .with_context(|| args.input.to_string())?;
     let points = match &read {
         input::Read::Mesh(mesh) => &mesh.vertices,
         input::Read::Cloud { points, .. } => points,
     };
     let (lo, hi) = geom::grid::bounds(points);
-    if args.lengths.factor().is_none() && (hi - lo).max() > stones::LONGEST {
+    if args.lengths.factor().is_none() && !args.placing.scales() && (hi - lo).max() > stones::LONGEST {
         return Err(stones::StoneError::Long((hi - lo).max())).with_context(|| args.input.to_string());
     }
     let cleaned = match &read {
@@ -62,5 +64,6 @@ fn stone_clean(args: Args) -> anyhow::Result<Report> {
     mesh::write_ply(&mut out, &stone.mesh, &[], Encoding::BinaryLittleEndian)?;
     out.commit()?;
     words::warn(&args.input, &changes, &settings);
-    Ok(Report::new(words::summary(&changes)).with("settings", settings).with_all(&changes))
+    let report = Report::new(words::summary(&changes)).with("settings", settings).with_all(&changes);
+    Ok(args.placing.report(report))
 }
