@@ -7,6 +7,7 @@ mod e57;
 mod e57_claims;
 mod e57_extra;
 mod e57_point;
+mod e57_xml;
 mod las;
 mod las_crs;
 mod las_extra;
