@@ -8,6 +8,7 @@ mod e57_claims;
 mod e57_extra;
 mod e57_point;
 mod e57_xml;
+mod epsg_units;
 mod las;
 mod las_crs;
 mod las_extra;
