@@ -2,6 +2,7 @@
 
 use crate::exit::usage;
 use crate::placing::Placing;
+use crate::text_columns::Columns;
 use anyhow::Context;
 use cloud::points::ReadWarning;
 use cloud::units::UnitWarning;
@@ -149,6 +150,9 @@ pub struct Input {
     /// What a length in it is.
     #[command(flatten)]
     pub lengths: Lengths,
+    /// The names of its columns.
+    #[command(flatten)]
+    pub columns: Columns,
     /// Where it is put.
     #[command(flatten)]
     pub placing: Placing,
@@ -202,9 +206,15 @@ impl Input {
     /// # Errors
     /// As [`Source::open`]; content that is not a cloud.
     pub fn read_cloud(&self) -> anyhow::Result<cloud::Cloud> {
-        let cloud = cloud::read(self.open()?).with_context(|| self.name())?;
+        let cloud = self.read(self.open()?)?;
         self.warn_of_marks(&cloud);
         Ok(self.in_metres(cloud))
+    }
+
+    fn read(&self, from: impl Read) -> anyhow::Result<cloud::Cloud> {
+        let opened = stream::ply::Opened::new(from).map_err(cloud::ReadError::Io);
+        let cloud = opened.and_then(|opened| cloud::formats::go_on_as(opened, self.columns.given()));
+        cloud.with_context(|| self.name())
     }
 
     /// Reads the cloud, with one point of each place if many lie in one: what compares each point with those around it would take time to the square.
@@ -237,7 +247,7 @@ impl Input {
     /// # Errors
     /// As [`Input::read_cloud`].
     pub fn go_on(&self, opened: stream::ply::Opened<impl Read>) -> anyhow::Result<cloud::Cloud> {
-        let cloud = cloud::formats::go_on(opened).with_context(|| self.name())?;
+        let cloud = cloud::formats::go_on_as(opened, self.columns.given()).with_context(|| self.name())?;
         Ok(self.in_metres(cloud))
     }
 
@@ -247,7 +257,7 @@ impl Input {
     /// As [`Input::read_cloud`].
     pub fn read_cloud_hashed(&self) -> anyhow::Result<(cloud::Cloud, (String, String))> {
         let mut from = stream::Hashed::new(self.open()?);
-        let cloud = cloud::read(&mut from).with_context(|| self.name())?;
+        let cloud = self.read(&mut from)?;
         self.warn_of_marks(&cloud);
         Ok((self.in_metres(cloud), ("cloud".to_owned(), from.sha256())))
     }

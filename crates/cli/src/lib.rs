@@ -38,6 +38,7 @@ mod signals;
 mod stderr;
 mod stdout;
 mod target;
+mod text_columns;
 mod time;
 
 pub use clash::also_reads;
@@ -52,4 +53,5 @@ pub use report::Report;
 pub use run::{Common, Seed, arguments, provenance, quiet, run, warn};
 pub use signals::{stop_in_order, stop_requested};
 pub use stderr::{escaped, say};
+pub use text_columns::Columns;
 pub use time::{seconds, span};

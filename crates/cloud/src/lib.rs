@@ -47,7 +47,7 @@ pub use cover::Mesher;
 pub use crop::crop;
 pub use darts::Method;
 pub use fill::fill;
-pub use formats::{ReadError, from_bytes, read, read_mesh, write_mesh, write_ply};
+pub use formats::{ReadError, TextColumns, from_bytes, read, read_mesh, write_mesh, write_ply};
 pub use merge::merge;
 pub use points::{Cloud, TooFar};
 pub use regions::shape;

@@ -152,7 +152,11 @@ impl Args {
     /// Whether rows go out as they came in.
     fn is_plain(&self) -> bool {
         let moved = self.input.placing.transform().is_some();
-        !self.output.ascii && !moved && self.input.lengths.factor().is_none_or(|factor| factor == 1.0)
+        let named = self.input.columns.given().is_some();
+        !self.output.ascii
+            && !moved
+            && !named
+            && self.input.lengths.factor().is_none_or(|factor| factor == 1.0)
     }
 }
 

@@ -77,6 +77,7 @@ pub fn read_watched(
         return Err(cli::usage("--scale, --units: runs and walls (MCAP) are in metres: leave it out"));
     }
     if !scaled {
+        args.columns.none("no input is a cloud of text")?;
         args.placing.none("runs and walls (MCAP) are not moved, clouds and meshes are")?;
     }
     if found.iter().all(|input| input.get("triangles").is_some())
@@ -124,16 +125,17 @@ fn cloud(from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> anyh
     let factor = args.lengths.factor().unwrap_or(1.0);
     let cloud = match Opened::new(from).with_context(cannot)? {
         // A plain cloud: its bytes are never all in memory.
-        Opened::Blocks(blocks) => ::cloud::formats::go_on(Opened::Blocks(blocks))?,
+        Opened::Blocks(blocks) => ::cloud::formats::go_on_as(Opened::Blocks(blocks), args.columns.given())?,
         Opened::Other(mut bytes, mut from) => {
             // Bytes of an unknown format may come from an endless stream.
             if ::cloud::formats::name_of(&bytes).is_some() {
                 stream::whole::rest(&mut from, &mut bytes).with_context(cannot)?;
             }
-            if !args.pick && (has_faces(&bytes) || mesh::is_drawing(&bytes).is_some()) {
+            let is_mesh = !args.pick && args.columns.given().is_none();
+            if is_mesh && (has_faces(&bytes) || mesh::is_drawing(&bytes).is_some()) {
                 return drawing(&bytes, name, args, show);
             }
-            ::cloud::from_bytes(bytes)?
+            ::cloud::formats::from_bytes_as(bytes, args.columns.given())?
         }
     };
     let is_scaled = args.lengths.factor().is_some() || args.placing.scales();

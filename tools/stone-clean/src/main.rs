@@ -17,12 +17,14 @@ const EXAMPLES: &str = "A mesh that is closed stays as it is; anything else gets
 /// Close, orient and thin out the mesh of a stone, or make a mesh of its cloud
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
-struct Args {
+pub struct Args {
     /// Mesh (PLY, STL, OBJ) or cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS), detected by content; - for stdin
     #[arg(value_name = "MESH|CLOUD", default_value = "-", hide_default_value = true)]
     input: cli::Source,
     #[command(flatten)]
     lengths: cli::Lengths,
+    #[command(flatten)]
+    columns: cli::Columns,
     #[command(flatten)]
     placing: cli::Placing,
     /// Faces of the result, at most [default: as many as come]
@@ -45,8 +47,7 @@ fn stone_clean(args: Args) -> anyhow::Result<Report> {
     }
     let settings =
         CleanSettings { faces: args.faces.map(|f| f as usize), cells: args.cells.map(|c| c as usize) };
-    let read = input::read(&args.input.read_all()?, args.lengths.factor(), &args.placing)
-        .with_context(|| args.input.to_string())?;
+    let read = input::read(&args.input.read_all()?, &args).with_context(|| args.input.to_string())?;
     let points = match &read {
         input::Read::Mesh(mesh) => &mesh.vertices,
         input::Read::Cloud { points, .. } => points,

@@ -64,8 +64,8 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-view flat.xyz -o v.html --colour rgb --range 0,1", "--range: rgb are colours, not a scale"),
     ("dem-view flat.xyz -o v.png --colour material --range 0,1", "--range: material has kinds, not a scale"),
     (
-        "dem-view run.mcap -o v.png --transform quarter.txt",
-        "--transform: runs and walls (MCAP) are not moved",
+        "wallgen --from-mesh tetra.ply --radius 0.03 --roughness 0.003 --columns x,y,z -o w.mcap",
+        "--columns: --from-mesh alone reads no cloud",
     ),
     (
         "stone-clump tetra.ply --measures --transform quarter.txt",
