@@ -1,5 +1,6 @@
 //! The cloud: positions as `f64`, and every other property as it came.
 
+use crate::units::UnitWarning;
 use geom::Vec3;
 use stream::Table;
 use thiserror::Error;
@@ -36,6 +37,8 @@ pub struct LengthUnit {
 pub enum ReadWarning {
     #[error("{0}")]
     LeftOut(String),
+    #[error("{0}")]
+    Digits(UnitWarning),
     #[error(
         "the coordinate reference system counts in '{}' of {} m, and everything here is in metres: read it with --scale {}, or with \
          --scale 1 if it is in metres all the same", .0.name, .0.metres, .0.metres

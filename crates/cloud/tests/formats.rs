@@ -305,6 +305,23 @@ fn las_in_degrees_is_refused() {
     assert!(read(with(&metres)).comments[0].contains("PROJCS"));
 }
 
+/// Binary STL has 4-byte numbers: at map coordinates they have lost their digits, and near the origin they have not.
+#[test]
+fn binary_stl_at_map_coordinates_prints_a_warning() {
+    let stl = |x: f32| {
+        let mut bytes = [&[0u8; 80][..], &200u32.to_le_bytes()].concat();
+        for k in 0..200u8 {
+            let (i, j) = (x + 0.1 * f32::from(k / 10), 0.1 * f32::from(k % 10));
+            let corners =
+                [0.0, 0.0, 1.0, i, j, 0.0, i + 0.1, j, 0.0, i, j + 0.1, 0.0].map(|c: f32| c.to_le_bytes());
+            bytes.extend([&corners.concat()[..], &[0; 2]].concat());
+        }
+        read(bytes).warnings.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert_eq!(stl(0.0), [""; 0]);
+    assert!(stl(5_849_000.0)[0].contains("4-byte numbers"), "{:?}", stl(5_849_000.0));
+}
+
 /// The numbers of EPSG alone say that a state plane counts in feet.
 #[test]
 fn las_in_feet_by_its_codes_prints_a_warning() {
