@@ -55,7 +55,7 @@ impl Source {
         Ok(())
     }
 
-    /// Opens the source; a pipe can be read while it is still being written.
+    /// Opens the source; a pipe can be read while it is still being written. Messages of an MCAP file are put in the order of time.
     ///
     /// # Errors
     /// No such file; stdin is a terminal (wrong usage).
@@ -78,7 +78,7 @@ impl Source {
                     io::ErrorKind::InvalidInput => anyhow::anyhow!("{self}: {e}"),
                     _ => anyhow::Error::new(e).context(self.missing(path)),
                 })?;
-                Ok(Box::new(file))
+                stream::mcap::in_order(file).with_context(|| format!("{self}: cannot read"))
             }
         }
     }
