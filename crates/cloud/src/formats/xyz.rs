@@ -138,11 +138,12 @@ impl Rows {
                 self.comment(number, &format!("columns in the file: {}", line.trim()));
                 return Ok(());
             }
-        } else if self.points.is_empty() && self.header.as_ref().is_none_or(|h| h.is_comment) {
-            if let Some(header) = self.names_in(line, number, false) {
-                self.header = Some(header);
-                return Ok(());
-            }
+        } else if self.points.is_empty()
+            && self.header.as_ref().is_none_or(|h| h.is_comment)
+            && let Some(header) = self.names_in(line, number, false)
+        {
+            self.header = Some(header);
+            return Ok(());
         }
         let is_named = self.header.as_ref().is_some_and(|h| !h.is_comment) || self.passed_over;
         if self.points.is_empty() && is_named && is_units(line) {
