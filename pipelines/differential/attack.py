@@ -1,7 +1,7 @@
 """Writes files of every format and quirk, reads them with Grainpipe and with other programs, and compares points, faces, columns and names.
 
-usage: attack.py --reader PROGRAM [--files N] [--seed S] [--keep FOLDER] [--page FILE] [--only PART-OF-A-KIND]
-Prints each difference with its file; exit 1 if there is one, 3 if a peer is missing."""
+usage: attack.py --reader PROGRAM [--files N] [--seed S] [--keep FOLDER] [--page FILE] [--only PART-OF-A-KIND] [--with-those-there]
+Prints each difference with its file; exit 1 if there is one, 3 if a peer is missing (--with-those-there: if numpy is; kinds that others write are passed over)."""
 import argparse
 import collections
 import importlib.util
@@ -19,6 +19,10 @@ PEERS = ["numpy", "laspy", "lazrs", "pye57", "open3d", "trimesh", "meshio", "ply
 # Some peers tell formats by the file's name.
 ENDINGS = {"ply-mesh": "ply", "text": "xyz", "polygon": "ply", "ply-head": "ply", "ply-lists": "ply", "stl-text": "stl", "obj-text": "obj",
            "pcd-head": "pcd", "dialect": "csv"}
+
+
+# Peers whose module has another name.
+MODULES = {"open3d_mesh": "open3d"}
 
 
 def family_of(kind):
@@ -82,6 +86,7 @@ def run(args):
     kinds |= formats_more.kinds(rng, args.keep, dict(kinds))
     kinds = {name: make for name, make in kinds.items() if args.only in name}
     reader, totals, bad = Reader(args.reader), collections.Counter(), []
+    absent, passed_over = missing(), set()
     by_format = collections.defaultdict(collections.Counter)
     peer_count, peer_bad = collections.Counter(), collections.defaultdict(set)
     for number in range(args.files):
@@ -89,7 +94,13 @@ def run(args):
         form = name.removeprefix("cut ").split("/")[0]
         ending = "obj" if name.startswith("polygon/obj") else ENDINGS.get(form, form)
         target = os.path.join(args.keep, f"{number}.{ending}")
-        case = make(target)
+        try:
+            case = make(target)
+        except ModuleNotFoundError as error:
+            if error.name not in absent:
+                raise
+            passed_over.add(name)
+            continue
         ours = reader.read(case.mode, case.path)
         wrong = judged(case, ours)
         family = family_of(name)
@@ -102,7 +113,8 @@ def run(args):
             bad.append(name)
             if bad.count(name) == 1:
                 print(f"{name}: {case.path}: {wrong}", flush=True)
-        for peer in case.peers if number < len(kinds) * args.peer_rounds else ():
+        there = [peer for peer in case.peers if MODULES.get(peer, peer) not in absent]
+        for peer in there if number < len(kinds) * args.peer_rounds else ():
             peer_count[peer] += 1
             try:
                 theirs = getattr(peers, peer)(case.path)
@@ -120,6 +132,8 @@ def run(args):
                 group["unlisted"] += 1
         if not wrong and not args.keep_all:
             os.unlink(case.path)
+    if absent:
+        print(f"passed over: {len(passed_over)} of {len(kinds)} kinds, which {', '.join(absent)} would write")
     return kinds, by_format, peer_count, peer_bad, bad, totals
 
 
@@ -146,8 +160,9 @@ def main():
     options.add_argument("--keep")
     options.add_argument("--keep-all", action="store_true")
     options.add_argument("--page")
+    options.add_argument("--with-those-there", action="store_true")
     args = options.parse_args()
-    if missing():
+    if "numpy" in missing() or missing() and not args.with_those_there:
         print("missing: " + " ".join(missing()))
         sys.exit(3)
     own = args.keep is None

@@ -1,8 +1,11 @@
 //! Inputs: a file, or `-` for stdin, with the name that messages use.
 
 use crate::exit::usage;
+use crate::placing::Placing;
+use crate::text_columns::Columns;
 use anyhow::Context;
 use cloud::points::ReadWarning;
+use cloud::units::UnitWarning;
 use geom::number::NumberError;
 use std::{
     convert::Infallible,
@@ -60,7 +63,7 @@ impl Source {
         Ok(())
     }
 
-    /// Opens the source; a pipe can be read while it is still being written.
+    /// Opens the source; a pipe can be read while it is still being written. Messages of an MCAP file are put in the order of time.
     ///
     /// # Errors
     /// No such file; stdin is a terminal (wrong usage).
@@ -83,7 +86,7 @@ impl Source {
                     io::ErrorKind::InvalidInput => anyhow::anyhow!("{self}: {e}"),
                     _ => anyhow::Error::new(e).context(self.missing(path)),
                 })?;
-                Ok(Box::new(file))
+                stream::mcap::in_order(file).with_context(|| format!("{self}: cannot read"))
             }
         }
     }
@@ -155,6 +158,12 @@ pub struct Input {
     /// What a length in it is.
     #[command(flatten)]
     pub lengths: Lengths,
+    /// The names of its columns.
+    #[command(flatten)]
+    pub columns: Columns,
+    /// Where it is put.
+    #[command(flatten)]
+    pub placing: Placing,
 }
 
 /// What a length in a file is: flatten it into the arguments of a tool that reads geometry.
@@ -205,9 +214,15 @@ impl Input {
     /// # Errors
     /// As [`Source::open`]; content that is not a cloud.
     pub fn read_cloud(&self) -> anyhow::Result<cloud::Cloud> {
-        let cloud = cloud::read(self.open()?).with_context(|| self.name())?;
+        let cloud = self.read(self.open()?)?;
         self.warn_of_marks(&cloud);
         Ok(self.in_metres(cloud))
+    }
+
+    fn read(&self, from: impl Read) -> anyhow::Result<cloud::Cloud> {
+        let opened = stream::ply::Opened::new(from).map_err(cloud::ReadError::Io);
+        let cloud = opened.and_then(|opened| cloud::formats::go_on_as(opened, self.columns.given()));
+        cloud.with_context(|| self.name())
     }
 
     /// Reads the cloud, with one point of each place if many lie in one: what compares each point with those around it would take time to the square.
@@ -240,7 +255,7 @@ impl Input {
     /// # Errors
     /// As [`Input::read_cloud`].
     pub fn go_on(&self, opened: stream::ply::Opened<impl Read>) -> anyhow::Result<cloud::Cloud> {
-        let cloud = cloud::formats::go_on(opened).with_context(|| self.name())?;
+        let cloud = cloud::formats::go_on_as(opened, self.columns.given()).with_context(|| self.name())?;
         Ok(self.in_metres(cloud))
     }
 
@@ -250,29 +265,36 @@ impl Input {
     /// As [`Input::read_cloud`].
     pub fn read_cloud_hashed(&self) -> anyhow::Result<(cloud::Cloud, (String, String))> {
         let mut from = stream::Hashed::new(self.open()?);
-        let cloud = cloud::read(&mut from).with_context(|| self.name())?;
+        let cloud = self.read(&mut from)?;
         self.warn_of_marks(&cloud);
         Ok((self.in_metres(cloud), ("cloud".to_owned(), from.sha256())))
     }
 
-    /// Says what the reader noticed, and scales the cloud or warns of implausible numbers. In a pipe only the first tool warns.
+    /// Says what the reader noticed, scales and moves the cloud, and warns of implausible numbers. In a pipe only the first tool warns.
     fn in_metres(&self, mut cloud: cloud::Cloud) -> cloud::Cloud {
-        let is_answered = |w: &ReadWarning| self.lengths.factor().is_some() && w.is_answered_by_scale();
+        let is_scaled = self.lengths.factor().is_some() || self.placing.scales();
+        let is_answered = |w: &ReadWarning| is_scaled && w.is_answered_by_scale();
         for warning in std::mem::take(&mut cloud.warnings).iter().filter(|w| !is_answered(w)) {
             crate::warn(&format!("{}: {warning}", self.name()));
         }
         if let Some(factor) = self.lengths.factor().filter(|factor| *factor != 1.0) {
             cloud.scale(factor);
         }
-        if self.cloud != Source::Stdin {
-            self.warn_about(&cloud::units::warnings(&cloud));
+        // Digits that are missing in the file are missing where it is moved to, too; places are named where they are then.
+        let is_short = |w: &UnitWarning| matches!(w, UnitWarning::Short { .. });
+        let mut found = cloud::units::warnings(&cloud);
+        if self.placing.transform().is_some() {
+            found.retain(is_short);
+            self.placing.cloud(&mut cloud, &self.name());
+            found.extend(cloud::units::warnings(&cloud));
         }
+        self.warn_about(&found);
         cloud
     }
 
     /// Warns of implausible numbers of a cloud, unless the scale is given or another tool has warned.
     pub fn warn_about(&self, warnings: &[cloud::units::UnitWarning]) {
-        let is_scaled = self.lengths.factor().is_some();
+        let is_scaled = self.lengths.factor().is_some() || self.placing.scales();
         if self.cloud != Source::Stdin {
             let open = warnings.iter().filter(|w| !(is_scaled && w.is_answered_by_scale()));
             open.for_each(|warning| crate::warn(&format!("{}: {warning}", self.name())));

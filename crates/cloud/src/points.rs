@@ -1,5 +1,6 @@
 //! The cloud: positions as `f64`, and every other property as it came.
 
+use crate::units::UnitWarning;
 use geom::Vec3;
 use stream::Table;
 use thiserror::Error;
@@ -36,6 +37,8 @@ pub struct LengthUnit {
 pub enum ReadWarning {
     #[error("{0}")]
     LeftOut(String),
+    #[error("{0}")]
+    Digits(UnitWarning),
     #[error(
         "the coordinate reference system counts in '{}' of {} m, and everything here is in metres: read it with --scale {}, or with \
          --scale 1 if it is in metres all the same", .0.name, .0.metres, .0.metres
@@ -61,6 +64,14 @@ const FARTHEST: f64 = 1e9;
 
 /// First word of a comment that says where a scanner stood.
 const VIEWPOINT: &str = "viewpoint";
+
+/// First words of a comment that names the system that coordinates are in.
+pub(crate) const SYSTEM: &str = "coordinate reference system";
+
+/// Whether a comment says where a scanner stood.
+pub(crate) fn is_viewpoint(line: &str) -> bool {
+    viewpoint(line).is_some()
+}
 
 /// The position [m] in a comment that says where a scanner stood.
 fn viewpoint(line: &str) -> Option<Vec3> {
@@ -116,7 +127,7 @@ impl Cloud {
         self.points.iter_mut().for_each(|p| *p *= factor);
         self.double = true;
         let viewpoints: Vec<Vec3> = self.viewpoints().collect();
-        self.comments.retain(|line| viewpoint(line).is_none());
+        self.comments.retain(|line| !is_viewpoint(line));
         viewpoints.iter().for_each(|eye| self.add_viewpoint(&(eye * factor)));
         self.comments.push(format!("{SCALED} {factor}"));
     }

@@ -1,6 +1,7 @@
 //! Files of every format and quirk, read here and by other programs: a file of each kind, of what `make -C pipelines differential` writes by thousands.
 //!
-//! The other programs are in the virtual environment that GRAINPIPE_PEERS names, in the one of `make -C pipelines differential`, or in that of python3.
+//! The other programs are in the virtual environment that GRAINPIPE_PEERS names, in the one of `make -C pipelines differential`, or in that of python3. Kinds of files
+//! that a program writes which is not there are passed over and counted as skipped.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -40,7 +41,7 @@ fn every_kind_of_file_is_read_as_other_programs_read_it() {
     let done = Command::new(python(&root))
         .arg(root.join("pipelines/differential/attack.py"))
         .args([Path::new("--reader"), &reader, Path::new("--keep"), &folder])
-        .args(["--files", FILES, "--seed", "7", "--peer-rounds", "1"])
+        .args(["--files", FILES, "--seed", "7", "--peer-rounds", "1", "--with-those-there"])
         .output();
     let Ok(done) = done else { return skip("python3 not found") };
     let words = String::from_utf8_lossy(&done.stdout).into_owned();
@@ -49,5 +50,8 @@ fn every_kind_of_file_is_read_as_other_programs_read_it() {
         return skip(&format!("other programs' readers not found ({})", words.trim()));
     }
     assert!(done.status.success(), "{words}\n{errors}");
+    if let Some(few) = words.lines().find(|line| line.starts_with("passed over")) {
+        skip(few);
+    }
     fs::remove_dir_all(folder).expect("it can be removed");
 }

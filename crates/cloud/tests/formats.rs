@@ -305,6 +305,60 @@ fn las_in_degrees_is_refused() {
     assert!(read(with(&metres)).comments[0].contains("PROJCS"));
 }
 
+/// Binary STL has 4-byte numbers: at map coordinates they have lost their digits, and near the origin they have not.
+#[test]
+fn binary_stl_at_map_coordinates_prints_a_warning() {
+    let stl = |x: f32| {
+        let mut bytes = [&[0u8; 80][..], &200u32.to_le_bytes()].concat();
+        for k in 0..200u8 {
+            let (i, j) = (x + 0.1 * f32::from(k / 10), 0.1 * f32::from(k % 10));
+            let corners =
+                [0.0, 0.0, 1.0, i, j, 0.0, i + 0.1, j, 0.0, i, j + 0.1, 0.0].map(|c: f32| c.to_le_bytes());
+            bytes.extend([&corners.concat()[..], &[0; 2]].concat());
+        }
+        read(bytes).warnings.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert_eq!(stl(0.0), [""; 0]);
+    assert!(stl(5_849_000.0)[0].contains("4-byte numbers"), "{:?}", stl(5_849_000.0));
+}
+
+/// The numbers of EPSG alone say that a state plane counts in feet.
+#[test]
+fn las_in_feet_by_its_codes_prints_a_warning() {
+    let with = |keys: &[(u16, u16)]| {
+        let mut data = [1u16, 1, 0, keys.len() as u16].to_vec();
+        keys.iter().for_each(|(id, value)| data.extend([*id, 0, 1, *value]));
+        let mut builder = las::Builder::from((1, 2));
+        builder.vlrs.push(las::Vlr {
+            user_id: "LASF_Projection".to_owned(),
+            record_id: 34735,
+            description: String::new(),
+            data: data.iter().flat_map(|n| n.to_le_bytes()).collect(),
+        });
+        let writer = las::Writer::new(Cursor::new(Vec::new()), builder.into_header().unwrap());
+        let bytes = writer.unwrap().into_inner().unwrap().into_inner();
+        read(bytes).warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+    };
+    for (keys, part) in [
+        (&[(1024, 1), (3072, 2263)][..], "'US survey foot' of 0.30480060960121924 m"),
+        (&[(1024, 1), (3072, 2994)], "'foot' of 0.3048 m"),
+        (&[(1024, 1), (3072, 2263), (4096, 6360)], "'US survey foot' of"),
+        (&[(1024, 1), (3072, 2263), (4096, 5703)], "heights in 'metre'"),
+        (&[(1024, 1), (3072, 32633), (4096, 6360)], "x and y in 'metre'"),
+        (&[(1024, 1), (3072, 2263), (3076, 9002)], "'foot' of 0.3048 m"),
+    ] {
+        let said = with(keys);
+        assert!(said.contains(part), "{keys:?}: {said}");
+    }
+    for keys in [
+        &[(1024, 1), (3072, 32633)][..],
+        &[(1024, 1), (3072, 2263), (3076, 9001)],
+        &[(1024, 1), (3072, 32767)],
+    ] {
+        assert_eq!(with(keys), "", "{keys:?}");
+    }
+}
+
 /// A line end behind binary data, and capitals.
 #[test]
 fn ply_as_other_programs_write_it() {

@@ -131,3 +131,82 @@ fn numbers_and_names_as_other_programs_write_them() {
     }
     assert!(refused("1,2,3\n1,2,three\n").contains("'three' (column 3) is not a number"));
 }
+
+fn named(columns: &str, text: &str) -> Result<Cloud, String> {
+    let columns = columns.parse::<cloud::TextColumns>()?;
+    cloud::formats::from_bytes_as(text.as_bytes().to_vec(), Some(&columns)).map_err(|e| e.to_string())
+}
+
+/// A user names the columns where the file does not, or in words of another language.
+#[test]
+fn columns_get_the_names_of_the_user() {
+    let at = |columns: &str, text: &str| {
+        let cloud = named(columns, text).unwrap();
+        assert_eq!(cloud.points[0], Vec3::new(1.0, 2.0, 3.0), "{columns}: {text}");
+        let values = cloud.attributes.columns().iter().map(|c| (c.name.clone(), c.values.get(0)));
+        values.collect::<BTreeMap<String, f64>>()
+    };
+    assert_eq!(at("id,x,y,z", "7 1 2 3\n8 4 5 6\n"), expected([("id", 7.0)]));
+    assert_eq!(at("z,y,x,R", "3,2,1,9\n"), expected([("red", 9.0)]));
+    assert_eq!(at("Easting, Northing, Height, tone", "1;2;3;0.5\n"), expected([("tone", 0.5)]));
+    // The names of the file give way, also with units below them; a comment holds them.
+    let german = "Nr;Rechts;Hoch;Höhe\n[-];[m];[m];[m]\n7;1;2;3\n";
+    assert_eq!(at("id,x,y,z", german), expected([("id", 7.0)]));
+    assert!(named("id,x,y,z", german).unwrap().comments[0].contains("Nr;Rechts"));
+    assert_eq!(at("x=Rechts,y=hoch,z=Höhe", german), expected([("Nr", 7.0)]));
+    assert_eq!(at("z=H (m),x=R,y=Y", "Y,R,H (m),x\n2,1,3,8\n"), expected([("c4", 8.0)]));
+    // What is left out may be any word.
+    assert_eq!(at("-,x,y,z,-", "P1,1,2,3,tree\nP2,4,5,6,house\n"), BTreeMap::new());
+    assert_eq!(at("-,x,y,z", "point x y z\nP1 1 2 3\n"), BTreeMap::new());
+    assert_eq!(at("x,y,z,a,tone", "1\t2\t3\t\t5\n").get("tone"), Some(&5.0), "nothing between two tabs");
+    assert_eq!(
+        at("x,y,z,tone", "2\n1 2 3 0.25\n4 5 6 0.5\n"),
+        expected([("tone", 0.25)]),
+        "a count in front"
+    );
+}
+
+#[test]
+fn names_of_the_user_that_do_not_fit_are_refused() {
+    for (columns, text, part) in [
+        ("id,x,y", "1 2 3\n", "x, y and z (or easting, northing, height) must be among the names"),
+        ("x,,y,z", "1 2 3 4\n", "name 2 is empty: - leaves a column out"),
+        ("x,y,z,z", "1 2 3 4\n", "'z' stands there twice"),
+        ("x=a,y=b", "1 2 3\n", "give each of the three once"),
+        ("x=a,y=b,z=c,id", "1 2 3\n", "give each of the three once"),
+        ("id,x,y,z", "1 2 3\n", "line 1: --columns names 4 columns, and the first point has 3"),
+        ("x,y,z", "a b c\nd e f\n1 2 3\n", "line 2: 'd' (column 1) is not a number"),
+        (
+            "x=a,y=b,z=c",
+            "x y z\n1 2 3\n",
+            "line 1: no line in front of the first point names the columns a, b, c",
+        ),
+        (
+            "x,y,z",
+            "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n",
+            "this is PLY, which names them itself",
+        ),
+        ("x,y,z", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "this is STL/OBJ"),
+    ] {
+        let why = named(columns, text).unwrap_err();
+        assert!(why.contains(part), "{columns}: {why}");
+    }
+    assert!(refused("P1 1 2 3\n").contains("name the columns with --columns, - for one that is left out"));
+}
+
+/// `height,x,y,z`: the coordinate is z, whatever stands in front.
+#[test]
+fn names_that_may_mean_two_columns_are_refused() {
+    assert_eq!(read("height,x,y,z\n9,1,2,3\n").points[0], Vec3::new(1.0, 2.0, 3.0));
+    assert_eq!(columns("height,x,y,z\n9,1,2,3\n"), expected([("height", 9.0)]));
+    assert_eq!(read("E N H id\n1 2 3 9\n").points[0], Vec3::new(1.0, 2.0, 3.0));
+    assert_eq!(read("x,y,z,e,n\n1,2,3,8,9\n").points[0], Vec3::new(1.0, 2.0, 3.0));
+    let why = refused("Easting,Northing,Height,Elevation\n1,2,3,4\n");
+    assert!(
+        why.contains("line 1: both 'height' and 'elevation' may be a coordinate")
+            && why.contains("--columns"),
+        "{why}"
+    );
+    let both = "Easting,Northing,Height,Elevation\n1,2,4,3\n";
+    assert_eq!(named("x=Easting,y=Northing,z=Elevation", both).unwrap().points[0].z, 3.0);
+}

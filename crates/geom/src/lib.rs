@@ -54,6 +54,8 @@ mod spread;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod star;
 #[cfg(not(target_arch = "nvptx64"))]
+pub mod transform;
+#[cfg(not(target_arch = "nvptx64"))]
 mod tree;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod triangle;
@@ -87,6 +89,8 @@ pub use shape::Shape;
 pub use shown::{Shown, counted, counted_as};
 #[cfg(not(target_arch = "nvptx64"))]
 pub use spread::least_axis;
+#[cfg(not(target_arch = "nvptx64"))]
+pub use transform::Transform;
 
 #[cfg(target_arch = "nvptx64")]
 #[path = "motion/pose.rs"]

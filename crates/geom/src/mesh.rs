@@ -1,6 +1,6 @@
 //! Triangle meshes: area, volume, nearest point, and whether a position is inside.
 
-use crate::Vec3;
+use crate::{Transform, Vec3};
 use std::collections::HashMap;
 use thiserror::Error;
 
@@ -67,6 +67,11 @@ impl TriMesh {
     /// Multiplies all lengths.
     pub fn scale(&mut self, factor: f64) {
         self.vertices.iter_mut().for_each(|v| *v *= factor);
+    }
+
+    /// Moves all vertices; faces keep their sides, because a [`Transform`] does not mirror.
+    pub fn transform(&mut self, by: &Transform) {
+        self.vertices.iter_mut().for_each(|v| *v = by.point(v));
     }
 
     /// Corners of face `face` [m].

@@ -74,11 +74,13 @@ pub struct Contents {
     pub mesh: TriMesh,
     /// What was left out, one sentence each.
     pub notes: Vec<String>,
+    /// Whether coordinates stand in 4-byte numbers in the file.
+    pub short: bool,
 }
 
 impl From<TriMesh> for Contents {
     fn from(mesh: TriMesh) -> Contents {
-        Contents { mesh, notes: Vec::new() }
+        Contents { mesh, ..Contents::default() }
     }
 }
 

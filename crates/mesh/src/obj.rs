@@ -135,7 +135,7 @@ impl Obj {
         // A coordinate that is not finite is refused with its number in the file.
         let all = TriMesh::new(self.vertices, Vec::new())?;
         if faces.is_empty() {
-            return Ok(Contents { mesh: all, notes });
+            return Ok(Contents { mesh: all, notes, short: false });
         }
         let (all, mut used) = (all.vertices, Vec::new());
         let mut numbers = vec![u32::MAX; all.len()];
@@ -147,7 +147,7 @@ impl Obj {
             }
             *corner = *number;
         }
-        Ok(Contents { mesh: TriMesh::new(used, faces)?, notes })
+        Ok(Contents { mesh: TriMesh::new(used, faces)?, notes, short: false })
     }
 }
 

@@ -63,12 +63,13 @@ fn is_whole(bytes: &[u8], promised: u64) -> bool {
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Contents, MeshFileError> {
     let mut solid = Solid::default();
-    if is_ascii(bytes) {
-        solid.read_text(bytes)?
-    } else {
+    let short = !is_ascii(bytes);
+    if short {
         solid.read_binary(bytes)?
+    } else {
+        solid.read_text(bytes)?
     }
-    Ok(TriMesh::new(solid.vertices, solid.faces)?.into())
+    Ok(Contents { short, ..TriMesh::new(solid.vertices, solid.faces)?.into() })
 }
 
 /// What has been read.

@@ -38,5 +38,6 @@ mod sinter_box;
 mod stage_variants;
 mod stale;
 mod streams;
+mod transform;
 mod view_in_chromium;
 mod walls_told;

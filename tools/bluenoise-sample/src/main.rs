@@ -53,7 +53,7 @@ fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
     if args.measured() {
         report = measures::measure(report, &cloud, &kept, args.plot.as_deref())?;
     }
-    Ok(report)
+    Ok(args.input.placing.report(report))
 }
 
 /// Warns if a spacing [m] or a density does not fit the cloud, as with a scan in millimetres.

@@ -128,7 +128,7 @@ fn cropped(args: &Args, rules: &Rules, cloud: &cloud::Cloud) -> anyhow::Result<R
         done => done.with_context(|| args.input.name())?,
     };
     words::warn(&counts, rules);
-    let report = words::report(&counts, rules, kept.points.len());
+    let report = args.input.placing.report(words::report(&counts, rules, kept.points.len()));
     if args.check {
         return words::checked(&counts, report);
     }
@@ -151,7 +151,12 @@ fn rows(args: &Args, blocks: Blocks<impl Read>, rules: &Rules) -> anyhow::Result
 impl Args {
     /// Whether rows go out as they came in.
     fn is_plain(&self) -> bool {
-        !self.output.ascii && self.input.lengths.factor().is_none_or(|factor| factor == 1.0)
+        let moved = self.input.placing.transform().is_some();
+        let named = self.input.columns.given().is_some();
+        !self.output.ascii
+            && !moved
+            && !named
+            && self.input.lengths.factor().is_none_or(|factor| factor == 1.0)
     }
 }
 

@@ -116,7 +116,7 @@ fn fill(args: Args) -> anyhow::Result<Report> {
     args.output.write_cloud(&filled.cloud)?;
     let report = &filled.report;
     let summary = summary(report);
-    Ok(Report::new(summary).with_all(report))
+    Ok(args.input.placing.report(Report::new(summary).with_all(report)))
 }
 
 fn summary(report: &cloud::fill::Report) -> String {

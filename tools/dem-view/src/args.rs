@@ -27,6 +27,10 @@ pub struct Args {
     pub inputs: Vec<Source>,
     #[command(flatten)]
     pub lengths: cli::Lengths,
+    #[command(flatten)]
+    pub columns: cli::Columns,
+    #[command(flatten)]
+    pub placing: cli::Placing,
     /// Write to FILE instead of HTML to stdout; FILE appears when it is complete. Endings: .html, .png, .gif, .mp4 (needs ffmpeg), .vtp
     /// (ParaView, one moment), .pvd (ParaView, a series: NAME.pvd and a folder NAME)
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]

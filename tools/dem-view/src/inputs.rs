@@ -76,6 +76,10 @@ pub fn read_watched(
     if !scaled && args.lengths.factor().is_some() {
         return Err(cli::usage("--scale, --units: runs and walls (MCAP) are in metres: leave it out"));
     }
+    if !scaled {
+        args.columns.none("no input is a cloud of text")?;
+        args.placing.none("runs and walls (MCAP) are not moved, clouds and meshes are")?;
+    }
     if found.iter().all(|input| input.get("triangles").is_some())
         && let Some(option) = args.of_colour()
     {
@@ -121,19 +125,21 @@ fn cloud(from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> anyh
     let factor = args.lengths.factor().unwrap_or(1.0);
     let cloud = match Opened::new(from).with_context(cannot)? {
         // A plain cloud: its bytes are never all in memory.
-        Opened::Blocks(blocks) => ::cloud::formats::go_on(Opened::Blocks(blocks))?,
+        Opened::Blocks(blocks) => ::cloud::formats::go_on_as(Opened::Blocks(blocks), args.columns.given())?,
         Opened::Other(mut bytes, mut from) => {
             // Bytes of an unknown format may come from an endless stream.
             if ::cloud::formats::name_of(&bytes).is_some() {
                 stream::whole::rest(&mut from, &mut bytes).with_context(cannot)?;
             }
-            if !args.pick && (has_faces(&bytes) || mesh::is_drawing(&bytes).is_some()) {
-                return drawing(&bytes, name, factor, show);
+            let is_mesh = !args.pick && args.columns.given().is_none();
+            if is_mesh && (has_faces(&bytes) || mesh::is_drawing(&bytes).is_some()) {
+                return drawing(&bytes, name, args, show);
             }
-            ::cloud::from_bytes(bytes)?
+            ::cloud::formats::from_bytes_as(bytes, args.columns.given())?
         }
     };
-    let is_answered = |w: &ReadWarning| args.lengths.factor().is_some() && w.is_answered_by_scale();
+    let is_scaled = args.lengths.factor().is_some() || args.placing.scales();
+    let is_answered = |w: &ReadWarning| is_scaled && w.is_answered_by_scale();
     for warning in cloud.warnings.iter().filter(|w| !is_answered(w)) {
         cli::warn(&format!("{name}: {warning}"));
     }
@@ -141,6 +147,7 @@ fn cloud(from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> anyh
     if factor != 1.0 {
         cloud.scale(factor);
     }
+    args.placing.cloud(&mut cloud, name);
     if dropped > 0 {
         let dropped = geom::counted(dropped, "point");
         cli::warn(&format!("{name}: the picture leaves out {dropped} without finite coordinates"));
@@ -196,11 +203,12 @@ fn has_faces(bytes: &[u8]) -> bool {
 }
 
 /// A mesh of triangles, at rest.
-fn drawing(bytes: &[u8], name: &str, factor: f64, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
+fn drawing(bytes: &[u8], name: &str, args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
     let mut mesh = mesh::from_bytes(bytes)?;
-    if factor != 1.0 {
+    if let Some(factor) = args.lengths.factor() {
         mesh.scale(factor);
     }
+    args.placing.mesh(&mut mesh, name);
     let faces = mesh.faces.len();
     let (shape, motion) = (SurfaceShape::Mesh(mesh), Motion::default());
     show.surface(WallSurface { name: name.to_owned(), shape, motion });

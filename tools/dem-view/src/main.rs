@@ -29,13 +29,14 @@ fn show(mut args: Args) -> anyhow::Result<Report> {
     Source::one_stdin(&args.inputs)?;
     let format = Format::of(&output)?;
     args.check(format)?;
-    match format {
+    let report = match format {
         Format::Html => page::html(&args, &output),
         Format::Png => png(&args, &output),
         Format::Gif | Format::Mp4 => film::film(&args, &output, format),
         Format::Vtp => paraview::vtp(&args, &output),
         Format::Pvd => paraview::pvd(&args, &output),
-    }
+    };
+    Ok(args.placing.report(report?))
 }
 
 fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {

@@ -1,5 +1,6 @@
 //! A mesh or a cloud, whichever the bytes are.
 
+use crate::Args;
 use anyhow::Context;
 use geom::Vec3;
 use geom::mesh::TriMesh;
@@ -11,17 +12,24 @@ pub enum Read {
 }
 
 /// Reads a mesh; bytes that are none are read as a cloud.
-pub fn read(bytes: &[u8], factor: Option<f64>) -> anyhow::Result<Read> {
-    let factor = factor.unwrap_or(1.0);
-    match mesh::from_bytes(bytes) {
+pub fn read(bytes: &[u8], args: &Args) -> anyhow::Result<Read> {
+    let factor = args.lengths.factor().unwrap_or(1.0);
+    // Text with nine numbers a line may be either.
+    let mesh = match args.columns.given() {
+        Some(_) => Err(MeshFileError::NoFaces),
+        None => mesh::from_bytes(bytes),
+    };
+    match mesh {
         Ok(mut mesh) => {
             mesh.scale(factor);
+            args.placing.mesh(&mut mesh, "the mesh");
             return Ok(Read::Mesh(mesh));
         }
         Err(MeshFileError::NoFaces | MeshFileError::Unknown { .. } | MeshFileError::Ply(_)) => {}
         Err(error) => return Err(error.into()),
     }
-    let cloud = cloud::from_bytes(bytes.to_vec()).context("neither a mesh nor a cloud")?;
+    let cloud = cloud::formats::from_bytes_as(bytes.to_vec(), args.columns.given())
+        .context("neither a mesh nor a cloud")?;
     cloud.warnings.iter().for_each(|warning| cli::warn(&warning.to_string()));
     let (mut cloud, _) = cloud.finite();
     cloud.check_reach()?;
@@ -32,6 +40,7 @@ pub fn read(bytes: &[u8], factor: Option<f64>) -> anyhow::Result<Read> {
         cloud = cloud.select(&places);
     }
     cloud.scale(factor);
+    args.placing.cloud(&mut cloud, "the cloud");
     let column = |name| cloud.attributes.get(name);
     let normals = match (column("nx"), column("ny"), column("nz")) {
         (Some(x), Some(y), Some(z)) => {

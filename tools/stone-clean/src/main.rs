@@ -17,12 +17,16 @@ const EXAMPLES: &str = "A mesh that is closed stays as it is; anything else gets
 /// Close, orient and thin out the mesh of a stone, or make a mesh of its cloud
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
-struct Args {
+pub struct Args {
     /// Mesh (PLY, STL, OBJ) or cloud (PLY, LAS, LAZ, E57, PCD, XYZ, PTS), detected by content; - for stdin
     #[arg(value_name = "MESH|CLOUD", default_value = "-", hide_default_value = true)]
     input: cli::Source,
     #[command(flatten)]
     lengths: cli::Lengths,
+    #[command(flatten)]
+    columns: cli::Columns,
+    #[command(flatten)]
+    placing: cli::Placing,
     /// Faces of the result, at most [default: as many as come]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(4..=2_000_000))]
     faces: Option<u32>,
@@ -43,14 +47,13 @@ fn stone_clean(args: Args) -> anyhow::Result<Report> {
     }
     let settings =
         CleanSettings { faces: args.faces.map(|f| f as usize), cells: args.cells.map(|c| c as usize) };
-    let read = input::read(&args.input.read_all()?, args.lengths.factor())
-        .with_context(|| args.input.to_string())?;
+    let read = input::read(&args.input.read_all()?, &args).with_context(|| args.input.to_string())?;
     let points = match &read {
         input::Read::Mesh(mesh) => &mesh.vertices,
         input::Read::Cloud { points, .. } => points,
     };
     let (lo, hi) = geom::grid::bounds(points);
-    if args.lengths.factor().is_none() && (hi - lo).max() > stones::LONGEST {
+    if args.lengths.factor().is_none() && !args.placing.scales() && (hi - lo).max() > stones::LONGEST {
         return Err(stones::StoneError::Long((hi - lo).max())).with_context(|| args.input.to_string());
     }
     let cleaned = match &read {
@@ -62,5 +65,6 @@ fn stone_clean(args: Args) -> anyhow::Result<Report> {
     mesh::write_ply(&mut out, &stone.mesh, &[], Encoding::BinaryLittleEndian)?;
     out.commit()?;
     words::warn(&args.input, &changes, &settings);
-    Ok(Report::new(words::summary(&changes)).with("settings", settings).with_all(&changes))
+    let report = Report::new(words::summary(&changes)).with("settings", settings).with_all(&changes);
+    Ok(args.placing.report(report))
 }

@@ -26,6 +26,8 @@ struct Args {
     #[command(flatten)]
     lengths: cli::Lengths,
     #[command(flatten)]
+    placing: cli::Placing,
+    #[command(flatten)]
     output: cli::Output,
     /// Number of spheres (tangent: at most this number)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=2000))]
@@ -84,8 +86,11 @@ fn stone_clump(args: Args) -> anyhow::Result<Report> {
     args.check_used()?;
     let mut mesh = mesh::from_bytes(&args.mesh.read_all()?).with_context(|| args.mesh.to_string())?;
     mesh.scale(args.lengths.factor().unwrap_or(1.0));
-    let stone = Stone::new(&mesh, args.lengths.factor().is_some()).with_context(|| args.mesh.to_string())?;
+    args.placing.mesh(&mut mesh, &args.mesh.to_string());
+    let units_given = args.lengths.factor().is_some() || args.placing.scales();
+    let stone = Stone::new(&mesh, units_given).with_context(|| args.mesh.to_string())?;
     if args.measures {
+        args.placing.none("measures of shape are the same in any position")?;
         let shape = ShapeMeasures::of(&stone);
         args.write(words::json(&shape)?.as_bytes())?;
         return Ok(Report::new(words::shape(&shape)).with_all(&shape));
@@ -114,7 +119,8 @@ fn stone_clump(args: Args) -> anyhow::Result<Report> {
             .as_bytes(),
         )?;
     }
-    Ok(Report::new(words::summary(&clump))
+    let report = args.placing.report(Report::new(words::summary(&clump)));
+    Ok(report
         .with("spheres", clump.spheres.len())
         .with("settings", settings)
         .with("volume", stone.moments.volume)

@@ -255,6 +255,9 @@ impl Args {
     /// Refuses options that would change nothing.
     pub fn check_used(&self) -> anyhow::Result<()> {
         self.check_ply()?;
+        if self.is_drawing() {
+            self.input.columns.none("--from-mesh alone reads no cloud")?;
+        }
         if let (Radius::Given(radius), Some(_)) = (self.radius, self.representative) {
             return Err(cli::usage(format!(
                 "--representative: the radius is given (--radius {radius}), and no average of distances is used: \

@@ -32,7 +32,8 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
     if args.output.to.has_extension("ply") {
         args.output.write_cloud(&as_cloud(cloud, &wall, &regions)?)?;
     } else {
-        let inputs = hashes.into_iter().chain(args.regions_hash()?).collect();
+        let inputs =
+            hashes.into_iter().chain(args.regions_hash()?).chain(args.input.placing.hash()).collect();
         let table = wall.table(&regions)?;
         let out = wall::write_mcap(
             args.output.open_binary("walls MCAP")?,
@@ -54,10 +55,8 @@ fn wallgen(args: Args) -> anyhow::Result<Report> {
         + &of_drawing(added)
         + &in_steps(&regions)
         + &passes(&report, &settings);
-    let all = Report::new(words)
-        .with_all(&report)
-        .with("materials", &regions.materials)
-        .with("stepped", &regions.stepped);
+    let all = args.input.placing.report(Report::new(words));
+    let all = all.with_all(&report).with("materials", &regions.materials).with("stepped", &regions.stepped);
     let all = if let Some(added) = added { all.with("of_drawing", added) } else { all };
     let all = if let Some(drawn) = &drawn { all.with("drawing", drawn) } else { all };
     Ok(if let Some(wear) = &wear { all.with("wear", wear) } else { all })

@@ -2,7 +2,7 @@
 
 use super::e57_extra::Extra;
 use super::e57_point::Fields;
-use super::{ReadError, catch, e57_claims as claims};
+use super::{ReadError, catch, e57_claims as claims, e57_xml};
 use crate::Cloud;
 use e57::{E57Reader, PointCloud, RawValues};
 use geom::Vec3;
@@ -34,7 +34,7 @@ struct Columns {
 
 fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     let length = bytes.len() as u64;
-    claims::before_the_header(&bytes).map_err(|e| broken(e, 0))?;
+    claims::before_the_header(&bytes).and_then(|()| e57_xml::check(&bytes)).map_err(|e| broken(e, 0))?;
     let mut reader = E57Reader::new(Cursor::new(bytes)).map_err(|e| broken(e, 0))?;
     let scans = reader.pointclouds();
     claims::before_the_points(&scans, length).map_err(|e| broken(e, 0))?;

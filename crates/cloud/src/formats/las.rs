@@ -6,6 +6,7 @@ use super::las_units;
 use super::laz::{self, Bytes, Chunk, STACK, Shallow};
 use super::{ReadError, catch};
 use crate::Cloud;
+use crate::points::SYSTEM;
 use geom::{Shown, Vec3};
 use las::{Header, LazParallelism, PointData, Reader, ReaderOptions, Transform};
 use std::borrow::Cow;
@@ -78,8 +79,7 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
         attributes.push(&name, values).map_err(|source| ReadError::Table { format: "LAS/LAZ", source })?;
     }
     let system = reference_system(&header);
-    let comments: Vec<String> =
-        system.into_iter().map(|name| format!("coordinate reference system {name}")).collect();
+    let comments: Vec<String> = system.into_iter().map(|name| format!("{SYSTEM} {name}")).collect();
     let mut cloud = Cloud { points: all.points, attributes, double: true, comments, ..Cloud::default() };
     if unknown > 0 {
         cloud.leave_out(format!("{unknown} extra bytes of each point were left out: nothing describes them"));

@@ -2,11 +2,12 @@
 //!
 //! ```text
 //! well-known text   PROJCS[…, UNIT["name", metres], …], VERT_CS[…, UNIT["name", metres]], or with LENGTHUNIT in an AXIS or behind all of them
-//! keys of GeoTIFF   3076 and 4099: 9001 metre, 9002 foot, 9003 US survey foot; 3077: metres
+//! keys of GeoTIFF   3076 and 4099: 9001 metre, 9002 foot, 9003 US survey foot; 3077: metres; else the units of the systems 3072 and 4096
 //! ```
 //!
 //! ISO 19162 (2019); OGC 01-009; OGC 19-008r4, GeoTIFF 1.1.
 
+use super::epsg_units::{self, Kind};
 use crate::points::{LengthUnit, ReadWarning};
 use las::Header;
 use las::crs::GeoTiffData;
@@ -91,9 +92,13 @@ fn by_keys(header: &Header) -> (Option<LengthUnit>, Option<LengthUnit>) {
         Some(GeoTiffData::Doubles(metres)) => metres.first().copied().filter(|m| (1e-6..1e6).contains(m)),
         _ => None,
     };
-    let horizontal =
-        unit(3076).or(own.map(|metres| LengthUnit { name: "a unit of its own".to_owned(), metres }));
-    (horizontal, unit(4099))
+    let by_code = |kind: Kind, id: u16| match value(id) {
+        Some(GeoTiffData::U16(code)) => epsg_units::of(kind, *code),
+        _ => None,
+    };
+    let own = own.map(|metres| LengthUnit { name: "a unit of its own".to_owned(), metres });
+    let horizontal = unit(3076).or(own).or_else(|| by_code(Kind::Projected, 3072));
+    (horizontal, unit(4099).or_else(|| by_code(Kind::Vertical, 4096)))
 }
 
 #[cfg(test)]

@@ -7,6 +7,8 @@ mod e57;
 mod e57_claims;
 mod e57_extra;
 mod e57_point;
+mod e57_xml;
+mod epsg_units;
 mod las;
 mod las_crs;
 mod las_extra;
@@ -15,10 +17,12 @@ mod laz;
 mod pcd;
 mod ply;
 mod ptx;
+mod text_names;
 mod xyz;
 mod xyz_columns;
 
 pub use ply::{read_mesh, to_ply, write_mesh, write_ply};
+pub use text_names::TextColumns;
 
 use crate::Cloud;
 use std::io::Read;
@@ -38,6 +42,9 @@ struct Format {
     read: fn(Vec<u8>) -> Result<Cloud, ReadError>,
 }
 
+/// The format of text.
+const TEXT: &str = "XYZ/PTS";
+
 /// Every format that a cloud is read from.
 const FORMATS: [Format; 7] = [
     Format { name: "PLY", matches: ply::matches, read: ply::read },
@@ -46,7 +53,7 @@ const FORMATS: [Format; 7] = [
     Format { name: "PCD", matches: pcd::matches, read: pcd::read },
     Format { name: "PTX", matches: ptx::matches, read: ptx::read },
     Format { name: "STL/OBJ", matches: drawing::matches, read: drawing::read },
-    Format { name: "XYZ/PTS", matches: xyz::matches, read: xyz::read },
+    Format { name: TEXT, matches: xyz::matches, read: xyz::read },
 ];
 
 /// Why bytes are no cloud.
@@ -83,6 +90,8 @@ pub enum ReadError {
         #[source]
         source: TableError,
     },
+    #[error("--columns names the columns of text, and this is {0}, which names them itself: leave it out")]
+    Columns(&'static str),
     #[error("{points} points are more than one cloud can hold ({}): divide the scan into parts", u32::MAX - 1)]
     TooMany { points: u64 },
 }
@@ -117,9 +126,23 @@ pub fn read(from: impl Read) -> Result<Cloud, ReadError> {
 /// # Errors
 /// As [`read`].
 pub fn go_on(opened: stream::ply::Opened<impl Read>) -> Result<Cloud, ReadError> {
+    go_on_as(opened, None)
+}
+
+/// The same of text whose columns the user may name.
+///
+/// # Errors
+/// As [`read`]; names for another format than text.
+pub fn go_on_as(
+    opened: stream::ply::Opened<impl Read>,
+    columns: Option<&TextColumns>,
+) -> Result<Cloud, ReadError> {
+    if columns.is_some() && matches!(opened, stream::ply::Opened::Blocks(_)) {
+        return Err(ReadError::Columns("PLY"));
+    }
     match ply::stream(opened)? {
         Ok(cloud) => few_enough(cloud),
-        Err(bytes) => from_bytes(bytes),
+        Err(bytes) => from_bytes_as(bytes, columns),
     }
 }
 
@@ -135,6 +158,14 @@ fn few_enough(cloud: Cloud) -> Result<Cloud, ReadError> {
 /// # Errors
 /// As [`read`].
 pub fn from_bytes(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
+    from_bytes_as(bytes, None)
+}
+
+/// The same of text whose columns the user may name.
+///
+/// # Errors
+/// As [`read`]; names for another format than text.
+pub fn from_bytes_as(bytes: Vec<u8>, columns: Option<&TextColumns>) -> Result<Cloud, ReadError> {
     if bytes.is_empty() {
         return Err(ReadError::Empty);
     }
@@ -146,7 +177,11 @@ pub fn from_bytes(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
             bytes.iter().take(12).flat_map(|b| std::ascii::escape_default(*b)).map(char::from).collect();
         return Err(ReadError::Unknown { start: format!("'{start}'"), hint: hint(&bytes) });
     };
-    few_enough((format.read)(bytes)?)
+    few_enough(match columns {
+        Some(_) if format.name != TEXT => return Err(ReadError::Columns(format.name)),
+        Some(columns) => xyz::read_as(&bytes, Some(columns))?,
+        None => (format.read)(bytes)?,
+    })
 }
 
 /// The name of the format that `bytes` begin with.

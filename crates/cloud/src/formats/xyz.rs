@@ -4,12 +4,15 @@
 //! column without a value. Lines that begin with `#` or `//` are comments. A first line of words names the columns, as many as there are. A line with
 //! a single whole number gives the number of points that follow (PTS; again in front of each further scan).
 
+mod naming;
+
 use super::ReadError;
-use super::xyz_columns::{Header, Named, is_units, pieces, separator, unusual};
+use super::text_names::TextColumns;
+use super::xyz_columns::{Header, is_units, pieces, separator, unusual};
 use crate::Cloud;
 use geom::Vec3;
 use std::borrow::Cow;
-use stream::{MOST_COLUMNS, Table, Values};
+use stream::{Table, Values};
 
 /// The columns of PTS after x, y, z, by their number.
 const PTS: [&[&str]; 5] =
@@ -29,8 +32,13 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
-    let mut rows = Rows::default();
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    read_as(&bytes, None)
+}
+
+/// Reads text whose columns the user names.
+pub(super) fn read_as(bytes: &[u8], given: Option<&TextColumns>) -> Result<Cloud, ReadError> {
+    let mut rows = Rows { given: given.cloned(), ..Rows::default() };
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let cr_only = !bytes.contains(&b'\n');
     let mut number = 0;
     for line in bytes.split(|&b| b == if cr_only { b'\r' } else { b'\n' }) {
@@ -73,10 +81,16 @@ struct Rows {
     points: Vec<Vec3>,
     extra: Vec<Vec<f64>>,
     header: Option<Header>,
+    /// The names that the user gives.
+    given: Option<TextColumns>,
+    /// Whether a line of names was passed over, because the user gives others.
+    passed_over: bool,
     /// Names of all columns, once the first point is there.
     names: Vec<String>,
     /// Which columns are x, y and z.
     axes: [usize; 3],
+    /// Which columns are left out, whatever stands in them; empty: none.
+    left_out: Vec<bool>,
     /// Whether tabs separate columns one by one.
     by_tabs: bool,
     /// Columns of the first point.
@@ -92,8 +106,11 @@ impl Default for Rows {
             points: Vec::new(),
             extra: Vec::new(),
             header: None,
+            given: None,
+            passed_over: false,
             names: Vec::new(),
             axes: [0, 1, 2],
+            left_out: Vec::new(),
             by_tabs: false,
             width: 0,
             promised: None,
@@ -115,12 +132,21 @@ impl Rows {
             self.comment(number, comment.trim_start_matches(['#', '/']).trim());
             return Ok(());
         }
-        if self.points.is_empty() && self.header.as_ref().is_none_or(|h| h.is_comment) {
-            if let Some(header) = Header::new(line, number, false) {
-                self.header = Some(header);
+        if let (true, Some(TextColumns::Listed(names))) = (self.points.is_empty(), &self.given) {
+            if !self.passed_over && naming::names_other(line, names) {
+                self.passed_over = true;
+                self.comment(number, &format!("columns in the file: {}", line.trim()));
                 return Ok(());
             }
-        } else if self.points.is_empty() && is_units(line) {
+        } else if self.points.is_empty()
+            && self.header.as_ref().is_none_or(|h| h.is_comment)
+            && let Some(header) = self.names_in(line, number, false)
+        {
+            self.header = Some(header);
+            return Ok(());
+        }
+        let is_named = self.header.as_ref().is_some_and(|h| !h.is_comment) || self.passed_over;
+        if self.points.is_empty() && is_named && is_units(line) {
             self.comment(number, line.trim());
             return Ok(());
         }
@@ -147,7 +173,7 @@ impl Rows {
             return;
         }
         if self.header.is_none() {
-            self.header = Header::new(comment, number, true);
+            self.header = self.names_in(comment, number, true);
             if self.header.is_some() {
                 return;
             }
@@ -155,28 +181,6 @@ impl Rows {
         if self.comments.len() < MOST_COMMENTS {
             self.comments.push(comment.to_owned());
         }
-    }
-
-    /// Takes the names and the number of columns from the first line of numbers.
-    fn begin(&mut self, number: usize, line: &str) -> Result<(), ReadError> {
-        if let Some(header) = &self.header {
-            let named = header.columns(line).map_err(|what| error(header.line, what, &header.text))?;
-            match named {
-                Some(Named { names, axes, by_tabs }) => {
-                    (self.width, self.names, self.axes, self.by_tabs) = (names.len(), names, axes, by_tabs);
-                    return Ok(());
-                }
-                None => self.comments.push(header.text.clone()),
-            }
-        }
-        let separator = separator(line, false);
-        let open = separator.is_some_and(|s| line.trim_end_matches([' ', '\r']).ends_with(s));
-        self.width = pieces(line, separator).count() - usize::from(open);
-        if self.width > MOST_COLUMNS {
-            let what = format!("more than {MOST_COLUMNS} columns: is the line end missing?");
-            return Err(error(number, what, line));
-        }
-        Ok(())
     }
 
     fn point(&mut self, number: usize, line: &str) -> Result<(), ReadError> {
@@ -199,6 +203,7 @@ impl Rows {
                 "" => f64::NAN,
                 word => match word.parse().ok().or_else(|| unusual(word)) {
                     Some(value) => value,
+                    None if self.left_out.get(width) == Some(&true) => f64::NAN,
                     None => return Err(self.not_a_number(number, word, width, line)),
                 },
             };
@@ -228,13 +233,6 @@ impl Rows {
         Ok(())
     }
 
-    fn not_a_number(&self, number: usize, word: &str, column: usize, line: &str) -> ReadError {
-        let what = format!("'{word}' (column {}) is not a number", column + 1);
-        let is_first = self.points.is_empty() && self.header.is_none();
-        let cure = if is_first { "; a line of names has x, y and z among them" } else { "" };
-        error(number, what + cure, line)
-    }
-
     fn uneven(&self, number: usize, width: usize, line: &str) -> ReadError {
         error(number, format!("{width} columns where the first point has {}", self.width), line)
     }
@@ -252,6 +250,9 @@ impl Rows {
         let mut attributes = Table::with_rows(found);
         let columns = (0..self.width).filter(|column| !self.axes.contains(column));
         for (i, (at, column)) in columns.zip(self.extra).enumerate() {
+            if self.left_out.get(at) == Some(&true) {
+                continue;
+            }
             let given = self.names.get(at).filter(|name| !name.is_empty()).cloned();
             let name = given.or_else(|| pts.map(|names| names[i].to_owned()));
             let name = name.unwrap_or_else(|| format!("c{}", at + 1));

@@ -3,12 +3,29 @@
 /// What separates the columns of a line: one character, between two of which a column may be empty, or (none) any run of blanks, tabs, commas and semicolons.
 pub(super) type Separator = Option<char>;
 
-/// Names of the axes, in lower case, without a unit.
-const AXES: [&[&str]; 3] = [
-    &["x", "easting", "east", "points:0"],
-    &["y", "northing", "north", "points:1"],
-    &["z", "height", "elevation", "up", "points:2"],
+/// Names of the axes, in lower case, without a unit; later ones count where none of the earlier ones is there.
+const AXES: [[&[&str]; 3]; 3] = [
+    [&["x"], &["y"], &["z"]],
+    [
+        &["easting", "east", "points:0", "x_coordinate", "x coordinate", "coord_x"],
+        &["northing", "north", "points:1", "y_coordinate", "y coordinate", "coord_y"],
+        &[
+            "height",
+            "elevation",
+            "elev",
+            "altitude",
+            "up",
+            "points:2",
+            "z_coordinate",
+            "z coordinate",
+            "coord_z",
+        ],
+    ],
+    // Letters, which stand for something else elsewhere: only together.
+    [&["e"], &["n"], &["h", "u"]],
 ];
+/// Which of these names are letters.
+const LETTERS: usize = 2;
 /// What programs write where there is no value, in lower case.
 const NO_VALUE: [&str; 10] =
     ["null", "na", "n/a", "#n/a", "-", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "1.#ind"];
@@ -80,13 +97,15 @@ pub(super) struct Header {
     pub(super) line: usize,
     /// Whether it stands behind a mark of a comment, and may be one.
     pub(super) is_comment: bool,
+    splits: Vec<Split>,
 }
 
 /// How one line of names can be read.
 struct Split {
     separator: Separator,
     names: Vec<String>,
-    axes: [usize; 3],
+    /// Which columns are x, y and z, or why that is not clear.
+    axes: Result<[usize; 3], String>,
 }
 
 /// Names of columns.
@@ -100,22 +119,26 @@ pub(super) struct Named {
 }
 
 impl Header {
-    /// A line that names x, y and z.
-    pub(super) fn new(text: &str, line: usize, is_comment: bool) -> Option<Header> {
-        let header = Header { text: text.to_owned(), line, is_comment };
-        (!header.splits().is_empty()).then_some(header)
-    }
-
-    fn splits(&self) -> Vec<Split> {
-        let strict = [';', ',', '\t'].into_iter().filter(|&s| self.text.contains(s)).map(Some);
+    /// A line that names x, y and z, as other programs do or, if given, by these names.
+    pub(super) fn new(
+        text: &str,
+        line: usize,
+        is_comment: bool,
+        chosen: Option<&[String; 3]>,
+    ) -> Option<Header> {
+        let strict = [';', ',', '\t'].into_iter().filter(|&s| text.contains(s)).map(Some);
         let splits = strict.chain([None]).filter_map(|separator| {
-            let names = split(&self.text, separator);
+            let names = split(text, separator);
+            let axes = match chosen {
+                Some(chosen) => Ok(named(&names, chosen)?),
+                None => axes(&names).transpose()?,
+            };
             // A sentence may hold these words anywhere.
-            let sentence = self.is_comment && separator.is_none();
-            let axes = axes(&names).filter(|axes| !sentence || *axes == [0, 1, 2])?;
-            Some(Split { separator, names, axes })
+            let is_sentence = is_comment && separator.is_none() && chosen.is_none();
+            (!is_sentence || axes == Ok([0, 1, 2])).then_some(Split { separator, names, axes })
         });
-        splits.collect()
+        let splits: Vec<Split> = splits.collect();
+        (!splits.is_empty()).then(|| Header { text: text.to_owned(), line, is_comment, splits })
     }
 
     /// The names of the columns of a first line of numbers: split as that line is, if it can be; none if it is a comment after all.
@@ -123,7 +146,7 @@ impl Header {
     /// # Errors
     /// Another number of names than of columns.
     pub(super) fn columns(&self, row: &str) -> Result<Option<Named>, String> {
-        let mut splits = self.splits();
+        let splits = &self.splits;
         let by_tabs = splits.iter().any(|s| s.separator == Some('\t'));
         let mut separator = separator(row, by_tabs);
         let same = splits.iter().position(|s| separator.is_some() && s.separator == separator).unwrap_or(0);
@@ -131,7 +154,7 @@ impl Header {
         if separator == Some('\t') && pieces(row, separator).count() != splits[same].names.len() {
             separator = None;
         }
-        let Split { names, axes, .. } = splits.swap_remove(same);
+        let Split { names, axes, .. } = &splits[same];
         let count = pieces(row, separator).count();
         // One more separator at the end of each line, or of this one, separates nothing.
         let is_open = separator.is_some_and(|s| row.trim_end_matches([' ', '\r']).ends_with(s));
@@ -140,6 +163,7 @@ impl Header {
         let found = count - usize::from(is_open && wanted + 1 == count);
         if wanted == found {
             let names = names.iter().take(wanted).map(|name| for_ply(name)).collect();
+            let axes = axes.clone()?;
             return Ok(Some(Named { names, axes, by_tabs: separator == Some('\t') }));
         }
         if self.is_comment && found == 3 {
@@ -154,7 +178,7 @@ impl Header {
 }
 
 /// The names of a line; quotes hold names with a separator.
-fn split(text: &str, separator: Separator) -> Vec<String> {
+pub(super) fn split(text: &str, separator: Separator) -> Vec<String> {
     let Some(separator) = separator else {
         return pieces(text, None).map(|w| w.trim_matches('"').to_owned()).collect();
     };
@@ -169,18 +193,54 @@ fn split(text: &str, separator: Separator) -> Vec<String> {
 }
 
 /// Which names are x, y and z; those with something behind the letter only at the beginning of the line.
-fn axes(names: &[String]) -> Option<[usize; 3]> {
+///
+/// # Errors
+/// Two names for one axis.
+pub(super) fn axes(names: &[String]) -> Result<Option<[usize; 3]>, String> {
     let plain: Vec<String> = names.iter().map(|n| without_unit(n).to_ascii_lowercase()).collect();
-    let at = AXES.map(|of| plain.iter().position(|name| of.contains(&name.as_str())));
-    if let [Some(x), Some(y), Some(z)] = at {
-        return Some([x, y, z]);
+    let rank = |axis: usize| {
+        let is_there = |rank: &usize| plain.iter().any(|name| AXES[*rank][axis].contains(&name.as_str()));
+        (0..AXES.len()).find(is_there)
+    };
+    if let [Some(x), Some(y), Some(z)] = [rank(0), rank(1), rank(2)]
+        && (x == LETTERS) == (y == LETTERS)
+    {
+        let [x, y, z] = [x, y, z].map(|rank| AXES[rank]);
+        return Ok(Some([one(&plain, x[0])?, one(&plain, y[1])?, one(&plain, z[2])?]));
     }
     let begins = |name: &String, axis: &str| {
         let rest = name.to_ascii_lowercase().strip_prefix(axis).map(str::to_owned);
         rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['_', '[']))
     };
-    let first = names.get(..3)?.iter().zip(["x", "y", "z"]).all(|(name, axis)| begins(name, axis));
-    first.then_some([0, 1, 2])
+    let first = names
+        .get(..3)
+        .is_some_and(|three| three.iter().zip(["x", "y", "z"]).all(|(name, axis)| begins(name, axis)));
+    Ok(first.then_some([0, 1, 2]))
+}
+
+/// Where the one of `names` that stands in `of` is; the same name again is another column.
+fn one(names: &[String], of: &[&str]) -> Result<usize, String> {
+    let mut found = (0..names.len()).filter(|&k| of.contains(&names[k].as_str()));
+    let first = found.next().unwrap_or(0);
+    match found.find(|&k| names[k] != names[first]) {
+        Some(other) => Err(format!(
+            "both '{}' and '{}' may be a coordinate: say which with --columns x=NAME,y=NAME,z=NAME",
+            names[first], names[other]
+        )),
+        None => Ok(first),
+    }
+}
+
+/// Where the names are that a user chose for x, y and z.
+fn named(names: &[String], chosen: &[String; 3]) -> Option<[usize; 3]> {
+    let at = |wanted: &String| {
+        let is_it = |name: &String| {
+            name.eq_ignore_ascii_case(wanted) || without_unit(name).eq_ignore_ascii_case(wanted)
+        };
+        names.iter().position(|name| name == wanted).or_else(|| names.iter().position(is_it))
+    };
+    let [x, y, z] = [at(&chosen[0])?, at(&chosen[1])?, at(&chosen[2])?];
+    (x != y && y != z && z != x).then_some([x, y, z])
 }
 
 /// A name without a unit in brackets behind a blank.
@@ -192,7 +252,7 @@ fn without_unit(name: &str) -> &str {
 }
 
 /// A name that PLY can hold; colours in the spelling of PLY.
-fn for_ply(name: &str) -> String {
+pub(super) fn for_ply(name: &str) -> String {
     match without_unit(name) {
         "R" | "r" | "Red" => "red".to_owned(),
         "G" | "g" | "Green" => "green".to_owned(),

@@ -3,8 +3,9 @@
 use super::csv;
 use crate::error::{Result, SceneError};
 use record::{DomainRecord, topic};
+use std::io::Cursor;
 use std::path::Path;
-use stream::mcap::{Event, Reader};
+use stream::mcap::{Event, Reader, in_order};
 
 /// The last domain of a run: lowest and highest coordinate [m] of its periodic axes.
 ///
@@ -14,7 +15,8 @@ pub fn read_domain(path: &Path) -> Result<[Option<(f64, f64)>; 3]> {
     let name = path.display().to_string();
     let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
     let mut last = None;
-    for event in Reader::new(&bytes[..]) {
+    let from = in_order(Cursor::new(&bytes)).map_err(|e| SceneError::read(path, e))?;
+    for event in Reader::new(from) {
         if let Event::Bytes { topic, data, .. } = event.map_err(|e| SceneError::content(&name, "a run", e))?
             && topic == topic::DOMAIN
         {

@@ -83,8 +83,8 @@ impl Input {
     /// As [`Input::open`], and a file that cannot be read.
     pub fn open_file(path: &Path) -> Result<Input> {
         let name = path.display().to_string();
-        let file = std::fs::File::open(path).map_err(|e| SceneError::read(path, e))?;
-        Input::open(&name, Box::new(file))
+        let file = std::fs::File::open(path).and_then(stream::mcap::in_order);
+        Input::open(&name, file.map_err(|e| SceneError::read(path, e))?)
     }
 
     fn by_topic(name: &str, reader: Reader<Source>, first: Event, head: StreamHead) -> Result<Input> {

@@ -8,8 +8,9 @@ use geom::Shown;
 use record::column::{BODY, CLUSTER, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
 use record::{ClumpRecord, Columns, LogMessage, MaterialRecord, WallRecord, metadata, topic};
 use std::collections::BTreeSet;
+use std::io::Cursor;
 use std::path::Path;
-use stream::mcap::{Event, Reader};
+use stream::mcap::{Event, Reader, in_order};
 use stream::{Table, Values};
 
 /// Particles of a file. Their materials are indices of `materials`, when the file names its own.
@@ -208,7 +209,8 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
     let (mut frame, mut materials, mut stopped) = (None, Vec::new(), None);
     let (mut history, mut walls, mut spheres) = (Vec::new(), Vec::new(), None);
     let (mut shapes, mut bodies) = (Vec::new(), None);
-    for event in Reader::new(bytes) {
+    let from = in_order(Cursor::new(bytes)).map_err(|e| SceneError::content(&name, "a run", e))?;
+    for event in Reader::new(from) {
         match event.map_err(|e| SceneError::content(&name, "a run", e))? {
             Event::Metadata { name: record, map } if record == metadata::MATERIALS => {
                 materials = MaterialRecord::from_map(&name, &map)?;

@@ -2,6 +2,7 @@
 
 use super::Placing;
 use super::insertion::Insertion;
+use super::obstacles::Obstacles;
 use super::servos::ServoArea;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
@@ -13,6 +14,7 @@ use geom::Shape;
 use record::{MaterialRecord, Sizes};
 use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Index and density of a material that particles are made of.
 pub(super) struct GrainMaterial {
@@ -64,6 +66,8 @@ pub(super) struct PlanBuilder<'a> {
     pub clusters: Vec<(u32, u32)>,
     pub clumps: setup::Clumps,
     pub walls: Vec<setup::Wall>,
+    /// Walls that fills keep free of; absent: they do not know the walls.
+    pub obstacles: Option<Arc<Obstacles>>,
     pub wall_materials: Vec<WallMaterial>,
     /// Areas of servos, until all walls are known.
     pub servo_areas: Vec<ServoArea>,
@@ -103,6 +107,7 @@ impl<'a> PlanBuilder<'a> {
             clusters: Vec::new(),
             clumps: setup::Clumps::default(),
             walls: Vec::new(),
+            obstacles: None,
             wall_materials: Vec::new(),
             servo_areas: Vec::new(),
             outlets: Vec::new(),

@@ -146,14 +146,16 @@ impl PlanBuilder<'_> {
             let why = "is not a number of clumps that can be placed";
             return Err(self.check.wrong(&key(entry.amount()), value, why, "ask for 1 to 10 million"));
         }
-        let taken = self.spheres();
+        let taken = self.taken();
         let reach = clump.reach();
         let mut packing = Packing::new(shape, corners, scales[0] * reach, &taken);
         let (mut id, members) = (self.next_id(), clump.spheres.len() as u32);
         for (n, &scale) in scales.iter().enumerate() {
             let Some(position) = packing.place(scale * reach, &mut random) else {
                 let count = scales.len();
-                let why = format!("only {n} of {count} clumps fit without their bounding spheres touching");
+                let what = self.in_the_way();
+                let why =
+                    format!("only {n} of {count} clumps fit without their bounding spheres touching{what}");
                 return Err(self.check.wrong(&key("shape"), &entry.shape, &why, LARGER));
             };
             let (orientation, velocity) = (random_orientation(&mut random), Vec3::from(entry.velocity));

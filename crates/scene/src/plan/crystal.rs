@@ -5,6 +5,7 @@
 //! hexagonal    (i + (j mod 2)/2 + (k mod 2)/2,   √3/2 (j + (k mod 2)/3),   √6/3 k) d          layers of hexagons, every second one above the gaps
 //! ```
 
+use super::obstacles::Taken;
 use super::packing::{Occupied, holds};
 use crate::keys::Lattice;
 use geom::{Shape, Vec3};
@@ -48,7 +49,7 @@ pub(super) fn places(
     shape: &Shape,
     corners: (Vec3, Vec3),
     (lattice, diameter): (Lattice, f64),
-    taken: &[(Vec3, f64)],
+    taken: &Taken,
     most: u64,
 ) -> Result<Vec<Vec3>, f64> {
     let (low, high) = corners;
@@ -80,7 +81,7 @@ mod tests {
     fn neighbours(lattice: Lattice) -> (usize, usize) {
         let shape: Shape = "box:0,0,0,1,1,1".parse().expect("a box");
         let corners = (Vec3::zeros(), Vec3::repeat(1.0));
-        let all = places(&shape, corners, (lattice, 0.1), &[], 10_000).expect("few enough");
+        let all = places(&shape, corners, (lattice, 0.1), &Taken::default(), 10_000).expect("few enough");
         let near = |p: &Vec3| all.iter().filter(|q| ((*q - p).norm() - 0.1).abs() < 1e-9).count();
         let closer = all.iter().flat_map(|p| all.iter().map(move |q| (p - q).norm()));
         assert!(closer.filter(|d| *d > 0.0).all(|d| d > 0.1 - 1e-9));
@@ -99,7 +100,13 @@ mod tests {
     #[test]
     fn too_many_sites_are_refused_before_they_are_made() {
         let shape: Shape = "box:0,0,0,1,1,1".parse().expect("a box");
-        let found = places(&shape, (Vec3::zeros(), Vec3::repeat(1.0)), (Lattice::Cubic, 1e-6), &[], 1000);
+        let found = places(
+            &shape,
+            (Vec3::zeros(), Vec3::repeat(1.0)),
+            (Lattice::Cubic, 1e-6),
+            &Taken::default(),
+            1000,
+        );
         assert!(found.is_err_and(|n| n > 9e17));
     }
 }

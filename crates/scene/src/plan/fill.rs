@@ -45,7 +45,7 @@ impl PlanBuilder<'_> {
         let largest = grading.range().high / 2.0;
         let mut random = generator(entry.seed, 1, index as u64);
         let mut grains = self.grains_of(index, entry, grading, &mut random)?;
-        let (first_id, taken) = (self.next_id(), self.spheres());
+        let (first_id, taken) = (self.next_id(), self.taken());
         let many = grains.len() > MANY;
         if !many {
             grains.sort_by(|a, b| b.diameter.total_cmp(&a.diameter));
@@ -61,7 +61,9 @@ impl PlanBuilder<'_> {
         let places = places.map_err(|n| {
             let mass = |grains: &[Grain]| grains.iter().map(|g| g.mass).sum::<f64>();
             let (fits, of, count) = (mass(&grains[..n]), mass(&grains), grains.len());
-            let why = format!("only {n} of {count} particles ({fits:.4} of {of:.4} kg) fit without touching");
+            let what = self.in_the_way();
+            let why =
+                format!("only {n} of {count} particles ({fits:.4} of {of:.4} kg) fit without touching{what}");
             self.check.wrong(&key("shape"), &entry.shape, &why, LARGER)
         })?;
         self.place(entry, first_id, grains.iter().map(|g| (g.material, g.diameter)).zip(places));
@@ -76,7 +78,7 @@ impl PlanBuilder<'_> {
         (shape, corners): (&Shape, (Vec3, Vec3)),
         (lattice, material): (Lattice, u16),
     ) -> Result<()> {
-        let (first_id, taken, diameter) = (self.next_id(), self.spheres(), entry.diameter.high);
+        let (first_id, taken, diameter) = (self.next_id(), self.taken(), entry.diameter.high);
         let places = crystal::places(shape, corners, (lattice, diameter), &taken, MOST);
         drop(taken);
         let key = |k: &str| format!("fill.{index}.{k}");

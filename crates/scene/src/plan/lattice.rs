@@ -9,6 +9,7 @@
 //! in one pass (selection sampling: Knuth, The Art of Computer Programming 2, 3.4.2, algorithm S). Time is linear in the number of spheres;
 //! random places, one after the other ([`super::packing`]), take more tries the fuller the shape is.
 
+use super::obstacles::Taken;
 use super::packing::{Occupied, Radii, holds};
 use super::random::unit;
 use geom::{Shape, Vec3};
@@ -38,7 +39,7 @@ pub(super) fn places(
     shape: &Shape,
     corners: (Vec3, Vec3),
     radii: &Radii,
-    taken: &[(Vec3, f64)],
+    taken: &Taken,
     random: &mut Pcg64Mcg,
 ) -> Result<Vec<Vec3>, usize> {
     let (count, largest) = (radii.all.len(), radii.all.iter().copied().fold(0.0, f64::max));
@@ -148,7 +149,7 @@ mod tests {
             &shape,
             bounds(&shape).unwrap(),
             &Radii { all: &radii, hear: &|_| () },
-            taken,
+            &Taken::from(taken.to_vec()),
             &mut generator(0, 1, 0),
         )?;
         assert!(found.iter().zip(&radii).all(|(p, r)| holds(&shape, p, *r)));

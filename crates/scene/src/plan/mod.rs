@@ -23,6 +23,7 @@ mod insertion;
 mod insertions;
 mod kept;
 mod lattice;
+mod obstacles;
 mod packing;
 mod particles;
 mod random;
@@ -121,6 +122,7 @@ impl Scene {
         builder.clump_shapes()?;
         builder.particles()?;
         builder.walls(wall_files)?;
+        builder.free_of_walls()?;
         builder.inlets(streams)?;
         builder.insertions()?;
         builder.outlets()?;

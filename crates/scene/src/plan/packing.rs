@@ -1,8 +1,10 @@
 //! Random places for whole spheres inside a shape, none of which touch.
 
+use super::obstacles::{Obstacles, Taken};
 use super::random::unit;
 use geom::{Shape, Vec3, shape::Solid};
 use rand_pcg::Pcg64Mcg;
+use std::sync::Arc;
 
 /// Tries for a place before the shape counts as full.
 const TRIES: usize = 20_000;
@@ -65,23 +67,25 @@ pub(super) struct Occupied {
     last: Vec<u32>,
     before: Vec<u32>,
     spheres: Vec<(Vec3, f64)>,
+    walls: Option<Arc<Obstacles>>,
 }
 
 const NONE: u32 = u32::MAX;
 
 impl Occupied {
-    /// The spheres near the box between two corners [m], for others of at most the radius `largest` [m].
-    pub(super) fn with((low, high): (Vec3, Vec3), largest: f64, spheres: &[(Vec3, f64)]) -> Occupied {
+    /// The spheres near the box between two corners [m] and the walls, for others of at most the radius `largest` [m].
+    pub(super) fn with((low, high): (Vec3, Vec3), largest: f64, taken: &Taken) -> Occupied {
+        let spheres = &taken.spheres;
         let largest = spheres.iter().map(|s| s.1).fold(largest, f64::max);
-        let mut occupied = Occupied::new(low, high, largest);
+        let mut occupied = Occupied { walls: taken.walls.clone(), ..Occupied::new(low, high, largest) };
         let near = |p: &Vec3| (0..3).all(|a| p[a] > low[a] - 2.0 * largest && p[a] < high[a] + 2.0 * largest);
         spheres.iter().filter(|s| near(&s.0)).for_each(|s| occupied.take(s.0, s.1));
         occupied
     }
 
-    /// Whether there is no sphere.
+    /// Whether there is neither a sphere nor a wall.
     pub(super) fn is_empty(&self) -> bool {
-        self.spheres.is_empty()
+        self.spheres.is_empty() && self.walls.is_none()
     }
 
     /// No spheres yet, of at most this radius, between two corners [m].
@@ -91,7 +95,15 @@ impl Occupied {
         let cell = (2.0 * largest).max((size.x * size.y * size.z / 2e7).cbrt()).max(size.max() / 4e3);
         let count = [0, 1, 2].map(|a| (size[a] / cell) as usize + 1);
         let cells = count.iter().product();
-        Occupied { low, cell, count, last: vec![NONE; cells], before: Vec::new(), spheres: Vec::new() }
+        Occupied {
+            low,
+            cell,
+            count,
+            last: vec![NONE; cells],
+            before: Vec::new(),
+            spheres: Vec::new(),
+            walls: None,
+        }
     }
 
     fn cell_of(&self, at: &Vec3) -> [usize; 3] {
@@ -99,7 +111,7 @@ impl Occupied {
         [0, 1, 2].map(|a| index(a).min(self.count[a] - 1))
     }
 
-    /// Whether a sphere touches none of those that are there.
+    /// Whether a sphere touches none of those that are there, and no wall.
     pub(super) fn is_free(&self, centre: &Vec3, radius: f64) -> bool {
         let here = self.cell_of(centre);
         let range = |a: usize| here[a].saturating_sub(1)..=(here[a] + 1).min(self.count[a] - 1);
@@ -117,7 +129,7 @@ impl Occupied {
                 }
             }
         }
-        true
+        self.walls.as_ref().is_none_or(|walls| walls.is_free(centre, radius))
     }
 
     /// Puts a sphere there.
@@ -163,13 +175,8 @@ pub(super) struct Packing<'a> {
 }
 
 impl<'a> Packing<'a> {
-    /// A shape between two corners, the spheres that are in it, and the largest radius of those to come [m].
-    pub(super) fn new(
-        shape: &'a Shape,
-        corners: (Vec3, Vec3),
-        largest: f64,
-        taken: &[(Vec3, f64)],
-    ) -> Packing<'a> {
+    /// A shape between two corners, what is in it, and the largest radius of those to come [m].
+    pub(super) fn new(shape: &'a Shape, corners: (Vec3, Vec3), largest: f64, taken: &Taken) -> Packing<'a> {
         let (low, high) = corners;
         Packing { shape, low, high, occupied: Occupied::with(corners, largest, taken) }
     }

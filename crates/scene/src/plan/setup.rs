@@ -68,10 +68,15 @@ impl PlanBuilder<'_> {
         Ok(Plan { setup, step, insertions, inlets, warnings, inputs, sizes, below })
     }
 
+    /// Largest overlap before a guard stops the run, as a share of the smaller radius [–].
+    pub(super) fn overlap_limit(&self) -> f64 {
+        self.keys().guards.overlap.unwrap_or(Guards::default().overlap)
+    }
+
     fn guards(&self) -> Guards {
         let (guards, default) = (&self.keys().guards, Guards::default());
         Guards {
-            overlap: guards.overlap.unwrap_or(default.overlap),
+            overlap: self.overlap_limit(),
             motion: guards.motion.unwrap_or(default.motion),
             // [[inlet]]s come before insertions, whose grains may get anywhere.
             cuts: self.keys().inlet.len() as u32,

@@ -29,7 +29,7 @@ impl PlanBuilder<'_> {
         self.late();
         self.bonds_to_fixed();
         self.beyond_open_sides();
-        let most = self.keys().guards.overlap.unwrap_or(dem::setup::Guards::default().overlap);
+        let most = self.overlap_limit();
         // Deeper overlaps are refused.
         let deep = self.deepest().filter(|deep| deep.share > DEEP && deep.share <= most);
         self.warnings.extend(deep.map(|DeepOverlap { pair, overlap, share }| {

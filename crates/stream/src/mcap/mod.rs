@@ -7,6 +7,7 @@
 //! input gives the same bytes.
 
 mod chunk;
+mod in_order;
 mod lengths;
 mod points;
 mod provenance;
@@ -14,8 +15,10 @@ mod reader;
 mod seek_buffer;
 #[cfg(test)]
 mod tests;
+mod walk;
 mod writer;
 
+pub use in_order::in_order;
 pub use provenance::{PROVENANCE, Provenance};
 pub use reader::{Event, Reader};
 pub use seek_buffer::SeekFn;
@@ -64,8 +67,8 @@ pub enum McapError {
     #[error("MCAP: topic '{topic}' at {time_ns} ns: point cloud: {what}")]
     Points { topic: String, time_ns: u64, what: String },
     #[error(
-        "MCAP: topic '{topic}': a message of {} s follows one of {} s: write the messages in the order of their times \
-         (docs/files.md#mcap-in-the-order-of-time)", seconds(*time_ns), seconds(*after_ns)
+        "MCAP: topic '{topic}': a message of {} s follows one of {} s: give it as a file, which is put in order, and not in a pipe; \
+         or write the messages in the order of their times (docs/files.md#mcap-in-the-order-of-time)", seconds(*time_ns), seconds(*after_ns)
     )]
     Order { topic: String, time_ns: u64, after_ns: u64 },
     #[error("MCAP: cannot write")]

@@ -1,4 +1,5 @@
 mod damaged;
+mod in_order;
 
 use super::*;
 use crate::{Line, NumberType, Rows, Table, Values};

@@ -177,6 +177,7 @@ pub fn inputs() -> TempDir {
         ("prism.json", PRISM.to_owned()),
         ("regions.toml", REGIONS.to_owned()),
         ("rough.toml", ROUGHNESS.to_owned()),
+        ("quarter.txt", "0 -1 0 0.1\n1 0 0 0\n0 0 1 0\n0 0 0 1\n".to_owned()),
         ("spheres.toml", SPHERES.to_owned()),
         ("two.csv", "x,y,z,radius,vx\n0,0,0,0.005,0\n0.01,0,0,0.005,-1\n".to_owned()),
         ("frames.dump", dump()),

@@ -63,6 +63,14 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-view flat.xyz -o v.png --only z=0,1", "--only: no input has grains"),
     ("dem-view flat.xyz -o v.html --colour rgb --range 0,1", "--range: rgb are colours, not a scale"),
     ("dem-view flat.xyz -o v.png --colour material --range 0,1", "--range: material has kinds, not a scale"),
+    (
+        "wallgen --from-mesh tetra.ply --radius 0.03 --roughness 0.003 --columns x,y,z -o w.mcap",
+        "--columns: --from-mesh alone reads no cloud",
+    ),
+    (
+        "stone-clump tetra.ply --measures --transform quarter.txt",
+        "--transform: measures of shape are the same in any position",
+    ),
     ("dem-run s.toml --check -o s.mcap", "-o s.mcap: --check writes nothing: leave it out"),
     (
         "dem-measure run.mcap --fragments --all",
