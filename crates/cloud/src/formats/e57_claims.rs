@@ -9,9 +9,8 @@
 //! ASTM E2807-11 (2019).
 
 use super::e57_extra::Extra;
-use e57::{E57Reader, Point, PointCloud, Quaternion, RecordDataType, RecordValue};
+use e57::{Point, PointCloud, Quaternion, RecordDataType, RecordValue};
 use geom::Shown;
-use std::io::Cursor;
 
 /// Memory of a point in the columns of a cloud that each has, and 8 in each other [B].
 const OF_A_POINT: u64 = 54;
@@ -26,30 +25,13 @@ const ROUNDED: f64 = 1e-3;
 /// Rounding of double precision: such a quaternion is used as it is.
 const EXACT: f64 = 1e-9;
 
-/// Most attributes of one XML element: each is compared with all others.
-const MOST_ATTRIBUTES: usize = 1000;
-
-/// Refuses an XML part that is longer than the file, or that takes a time which grows with the square of its length.
+/// Refuses an XML part that is longer than the file.
 pub(super) fn before_the_header(bytes: &[u8]) -> Result<(), String> {
     let claimed = bytes.get(32..40).and_then(|b| b.try_into().ok()).map(u64::from_le_bytes);
-    if let Some(n) = claimed.filter(|&n| n > bytes.len() as u64) {
-        return Err(format!("{n} bytes of XML are promised in {} bytes: it is cut off", bytes.len()));
+    match claimed.filter(|&n| n > bytes.len() as u64) {
+        Some(n) => Err(format!("{n} bytes of XML are promised in {} bytes: it is cut off", bytes.len())),
+        None => Ok(()),
     }
-    // What cannot be read is reported with the rest.
-    let xml = E57Reader::raw_xml(Cursor::new(bytes)).unwrap_or_default();
-    match attributes(&xml) {
-        n if n > MOST_ATTRIBUTES => {
-            Err(format!("an XML element has {n} attributes, more than {MOST_ATTRIBUTES}: export it again"))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Most equals signs between an opening angle bracket and the next closing one.
-fn attributes(xml: &[u8]) -> usize {
-    let tags = xml.split(|byte| *byte == b'<');
-    let of = |tag: &[u8]| tag.iter().take_while(|byte| **byte != b'>').filter(|byte| **byte == b'=').count();
-    tags.map(of).max().unwrap_or(0)
 }
 
 /// Refuses scans of more points than the file has bits for, or whose points take more memory than is fair for its length [B].
@@ -168,14 +150,5 @@ mod tests {
         // Digits of double precision stay.
         let exact = (0.6f64 + 1e-12, 0.8f64);
         assert_eq!(posed(exact.0, exact.1).map(|q| (q.w, q.x)), Ok(exact));
-    }
-
-    #[test]
-    fn attributes_of_the_largest_element_are_counted() {
-        let many: String = (0..1001).map(|k| format!(" a{k}=\"0\"")).collect();
-        let xml = format!("<?xml version=\"1.0\"?><e57Root><a b=\"1\" c=\"2\">x = y</a><z{many}/></e57Root>");
-        assert_eq!(attributes(xml.as_bytes()), 1001);
-        assert_eq!(attributes(b"<a b=\"1\" c=\"2\">x = y = z = w</a>"), 2);
-        assert_eq!(attributes(b""), 0);
     }
 }
