@@ -235,8 +235,8 @@ pub enum Halt {
     },
     /// Energy came from nowhere.
     #[error(
-        "t = {time:.6e} s: the time step has made {made:.3e} J, {:.2} % of the {of:.3e} J that were exchanged or in motion and springs at most (limit {:.2} %)",
-        100.0 * made / of, 100.0 * limit
+        "t = {time:.6e} s: the time step has made {made:.3e} J, {} of the {of:.3e} J that were exchanged or in motion and springs at most (limit {:.2} %)",
+        share_of(*made, *of), 100.0 * limit
     )]
     Energy {
         /// When [s].
@@ -288,4 +288,9 @@ impl Display for Partner {
             Partner::Wall(name) => write!(f, "wall '{name}'"),
         }
     }
+}
+
+/// A share in words, also of nothing.
+fn share_of(part: f64, whole: f64) -> String {
+    if whole == 0.0 { "all".to_owned() } else { format!("{:.2} %", 100.0 * part / whole) }
 }

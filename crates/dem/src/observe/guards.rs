@@ -6,6 +6,7 @@ use crate::observe::snapshot::energy;
 use crate::observe::stiffen::{DeepContact, stiffer};
 use crate::passes::ledger::swing;
 use crate::passes::touching::position_before;
+use crate::space::sphere::mass;
 use crate::state::{CellState, ServoState, State};
 use std::ops::Range;
 
@@ -112,10 +113,16 @@ const ROUNDING: f64 = 1e-9;
 /// Share of its radius in a step below which a particle rests [–].
 const RESTS: f64 = 1e-9;
 
-/// Energy of motion below which nothing moves [J]: of all particles, each at [`RESTS`]. Grains that touch up to the rounding of their places hold far less.
+/// Energy of motion below which nothing moves [J]: of all particles, each at [`RESTS`], and of one that may come in. Grains that touch up to the rounding of
+/// their places hold far less, and so do those that have come and gone.
 pub fn rest(model: &Model, state: &State) -> f64 {
+    let at_rest = |mass: f64, radius: f64| 0.5 * mass * (RESTS * radius / model.dt).powi(2);
     let heavy = state.particles.rows.iter().filter(|row| row[7] > 0.0);
-    heavy.map(|row| 0.5 / row[7] * (RESTS * row[3] / model.dt).powi(2)).sum()
+    let setup = &model.setup;
+    let densities = setup.entry_materials.iter().filter_map(|m| setup.materials.get(usize::from(*m)));
+    let densest = densities.map(|m| m.density).fold(0.0, f64::max);
+    let entry = mass(setup.largest_entry, densest);
+    heavy.map(|row| at_rest(1.0 / row[7], row[3])).sum::<f64>() + at_rest(entry, setup.largest_entry)
 }
 
 /// Whether the energy that the step makes is to be checked now.
