@@ -68,7 +68,7 @@ $(FURNACE)/profile.md: $(foreach f,$(FURNACE_FOLDERS),$(FURNACE_RUNS:%=$(f)/%.cs
 $(FURNACE)/page.html: $(FURNACE)/seed-1/upstream.mcap $(FURNACE)/seed-1/inwards.mcap
 	dem-view $(FURNACE)/seed-1/inwards.mcap --colour material -o $@
 $(FURNACE)/picture.png: $(FURNACE)/seed-1/upstream.mcap $(FURNACE)/seed-1/inwards.mcap
-	dem-view $^ --time 9.5 --camera front --cut --colour material -o $@
+	dem-view $^ --time 9.5 --camera front --cut --colour material --size 700x1000 -o $@
 
 furnace-study: $(foreach f,$(FURNACE_FOLDERS),$(patsubst %,$(f)/%.csv,undivided $(FURNACE_RUNS))) ## the same with the undivided plant beside it; writes the tables of docs/furnace.md (FURNACE_SEEDS="1 2 3")
 	{ echo; furnace/profile.sh undivided $(FURNACE_RUNS) -- $(FURNACE_FOLDERS); } > $(FURNACE)/study.md

@@ -4,7 +4,7 @@
 //! x(t) = c + R(α(p))(x₀ − c) + v p + a sin(2π f p) + s(p)     v(x) = ẋ, exactly, at every time
 //! α(p) = Ω p + A sin(2π f_s p) + β(p)                          s, β: a table, linear between its rows
 //! p(t): 0 until `from`, then t − from, and constant from `until` on; with a ramp its rate rises from 0 to 1, and falls before the end;
-//!       with a period it does so again from `from` + k × period on, from where it has come; a table then begins anew
+//!       with a period it does so again from `from` + k × period on, from where it has come; a table then begins again
 //! ```
 //!
 //! A list of motions is their composition: each acts on what the ones before it have moved, so that the axis of a turn is carried by

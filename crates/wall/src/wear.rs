@@ -19,10 +19,15 @@
 //! Between the entries ζ is linear in both; beyond the table the value at its edge is used, and the report counts these points. With a
 //! drawing, the wear is the distance of a point from the drawn surface [m]; with a run, that of the nearest wall sphere.
 
+mod places;
+mod table;
+
 use geom::mesh::{TriMesh, closest_point};
-use geom::{Boxes, Grid, Vec3};
+use geom::{Boxes, Vec3};
+use places::Places;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use table::{WearTable, place};
 use thiserror::Error;
 
 /// What is wrong with a table of wear.
@@ -77,13 +82,6 @@ enum WearSource {
     Value(f64),
 }
 
-/// What was measured at places [m].
-#[derive(Debug, Clone)]
-struct Places {
-    at: Vec<Vec3>,
-    wears: Vec<f64>,
-}
-
 /// A table, and where its two indices come from.
 #[derive(Debug, Clone)]
 pub struct Wear {
@@ -91,17 +89,6 @@ pub struct Wear {
     from: Vec3,
     along: Vec3,
     table: WearTable,
-}
-
-/// Roughness over wear and position.
-#[derive(Debug, Clone)]
-struct WearTable {
-    /// Along the direction [m], ascending.
-    positions: Vec<f64>,
-    /// Ascending.
-    wears: Vec<f64>,
-    /// ζ [m], a row a wear.
-    roughness: Vec<Vec<f64>>,
 }
 
 /// What a table was asked.
@@ -143,7 +130,7 @@ impl Wear {
         let along = along.ok_or(WearError::Along { along: section.along })?;
         let file = section.table;
         let text = text(&file).map_err(|why| WearError::File { file: file.clone(), why })?;
-        Ok(Wear { source, from: section.from.into(), along, table: parse(&file, &text)? })
+        Ok(Wear { source, from: section.from.into(), along, table: WearTable::parse(&file, &text)? })
     }
 
     /// ζ [m] of each point [m]; where nothing was measured it is `outside`. `property` gives a column of the cloud.
@@ -205,79 +192,8 @@ impl Wear {
     }
 }
 
-impl Places {
-    /// The places of a table with the columns x, y, z [m], and this one.
-    fn read(file: &str, column: &str, text: Load<String>) -> Result<Places, WearError> {
-        let wrong = |why: String| WearError::File { file: file.to_owned(), why };
-        let text = text(file).map_err(wrong)?;
-        let mut lines = (1..).zip(text.lines()).filter(|(_, l)| !l.trim().is_empty());
-        let head = lines.next().map_or("", |(_, head)| head);
-        // "x [m]" is x.
-        let names: Vec<&str> = head.split(',').map(|n| n.split('[').next().unwrap_or(n).trim()).collect();
-        let find = |name: &str| {
-            let missing =
-                || wrong(format!("has no column '{name}': give a table that dem-measure --wear wrote"));
-            names.iter().position(|n| *n == name).ok_or_else(missing)
-        };
-        let columns = [find("x")?, find("y")?, find("z")?, find(column)?];
-        let (mut at, mut wears) = (Vec::new(), Vec::new());
-        for (line, row) in lines {
-            let cells: Vec<&str> = row.split(',').map(str::trim).collect();
-            let numbers =
-                columns.map(|k| cells.get(k).and_then(|c| c.parse::<f64>().ok()).filter(|x| x.is_finite()));
-            let [Some(x), Some(y), Some(z), Some(wear)] = numbers else {
-                let (file, what) = (file.to_owned(), "a line has a place and a wear, not");
-                return Err(WearError::Line { file, line, what, text: row.chars().take(60).collect() });
-            };
-            at.push(Vec3::new(x, y, z));
-            wears.push(wear);
-        }
-        if at.is_empty() {
-            Err(wrong("has no line below its names".to_owned()))
-        } else {
-            Ok(Places { at, wears })
-        }
-    }
-
-    /// The wear at the place nearest to each point [m].
-    fn nearest(&self, points: &[Vec3]) -> Vec<f64> {
-        let (low, high) = geom::grid::bounds(&self.at);
-        let first = ((high - low).norm() / (self.at.len() as f64).sqrt()).max(1e-9);
-        let grid = Grid::new(&self.at, first);
-        let wear = |p: &Vec3| {
-            let apart = |k: &u32| (self.at[*k as usize] - p).norm_squared();
-            // From outside of their box all of them are at most this far.
-            let most = (p - 0.5 * (low + high)).norm() + (high - low).norm() + first;
-            let mut reach = first;
-            loop {
-                let near = grid
-                    .within(&self.at, *p, reach)
-                    .min_by(|a, b| apart(a).total_cmp(&apart(b)).then(a.cmp(b)));
-                match near {
-                    Some(k) => return self.wears[k as usize],
-                    None if reach > most => return f64::NAN,
-                    None => reach *= 2.0,
-                }
-            }
-        };
-        points.par_iter().map(wear).collect()
-    }
-}
-
 fn widen(range: &mut [f64; 2], value: f64) {
     *range = [range[0].min(value), range[1].max(value)];
-}
-
-/// The entry at or before a value, the share of the next one, and whether the value is in the table.
-fn place(entries: &[f64], value: f64) -> ((usize, f64), bool) {
-    let last = entries.len() - 1;
-    let is_in = value >= entries[0] && value <= entries[last];
-    let value = value.clamp(entries[0], entries[last]);
-    let before = entries.partition_point(|&e| e <= value).saturating_sub(1).min(last.saturating_sub(1));
-    if last == 0 {
-        return ((0, 0.0), is_in);
-    }
-    ((before, (value - entries[before]) / (entries[before + 1] - entries[before])), is_in)
 }
 
 /// Distance of each point from a surface [m].
@@ -301,53 +217,6 @@ fn distances(points: &[Vec3], mesh: &TriMesh) -> Vec<f64> {
         f64::NAN
     };
     points.par_iter().map(distance).collect()
-}
-
-fn parse(file: &str, text: &str) -> Result<WearTable, WearError> {
-    let mut lines =
-        (1..).zip(text.lines()).filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
-    let wrong = |line: usize, what: &'static str, text: &str| WearError::Line {
-        file: file.to_owned(),
-        line,
-        what,
-        text: text.trim().chars().take(60).collect(),
-    };
-    let numbers = |words: &str| words.split(',').map(|w| w.trim().parse().ok()).collect::<Option<Vec<f64>>>();
-    let Some((line, head)) = lines.next() else {
-        return Err(WearError::File {
-            file: file.to_owned(),
-            why: "is empty: give positions and wears".to_owned(),
-        });
-    };
-    let positions = head.split_once(',').and_then(|(_, rest)| numbers(rest)).filter(|p| ascends(p));
-    let positions = positions.ok_or_else(|| {
-        wrong(line, "the first line is a word and then positions in m, ascending, not", head)
-    })?;
-    let (mut wears, mut roughness) = (Vec::new(), Vec::new());
-    for (line, text) in lines {
-        let row = numbers(text).filter(|row| row.len() == positions.len() + 1);
-        let row =
-            row.ok_or_else(|| wrong(line, "a line is a wear and a roughness for each position, not", text))?;
-        if !row[1..].iter().all(|&zeta| zeta > 0.0 && zeta.is_finite()) {
-            return Err(wrong(line, "roughness must be positive, in m", text));
-        }
-        wears.push(row[0]);
-        if !ascends(&wears) {
-            return Err(wrong(line, "wear must ascend from line to line", text));
-        }
-        roughness.push(row[1..].to_vec());
-    }
-    if wears.is_empty() {
-        return Err(WearError::File {
-            file: file.to_owned(),
-            why: "has no line below the positions".to_owned(),
-        });
-    }
-    Ok(WearTable { positions, wears, roughness })
-}
-
-fn ascends(values: &[f64]) -> bool {
-    !values.is_empty() && values.iter().all(|v| v.is_finite()) && values.windows(2).all(|w| w[0] < w[1])
 }
 
 #[cfg(test)]
@@ -428,7 +297,7 @@ mod tests {
             ("wear, 1\n0, -1", "positive"),
             ("wear, 1\n", "no line"),
         ] {
-            let told = parse("t.csv", table).unwrap_err().to_string();
+            let told = WearTable::parse("t.csv", table).unwrap_err().to_string();
             assert!(told.contains(words) && told.contains("t.csv"), "{told}");
         }
     }

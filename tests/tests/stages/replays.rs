@@ -144,16 +144,16 @@ fn all_are_generated_earlier_when_asked_for() {
 #[test]
 fn passages_counted_in_steps() {
     let folder = plant();
-    succeed(folder.path(), "dem-run", &["up.toml", "--set", "time.dt=2e-5", "-o", "up.mcap"]);
+    succeed(folder.path(), "dem-run", &["up.toml", "--set", "time.dt=8e-6", "-o", "up.mcap"]);
     let zone = ["--keep-times", "--intervals", "generation"];
     let exact = replay(folder.path(), &zone);
     let counted = replay(folder.path(), &[&zone[..], &["--passage", "steps"]].concat());
     assert!(exact.len() > 30 && exact.len() == counted.len());
     for (a, b) in exact.iter().zip(&counted) {
-        let steps = b.time / 2e-5;
+        let steps = b.time / 8e-6;
         assert!((steps - steps.round()).abs() < 1e-6, "{steps} steps");
-        assert!(b.time - a.time >= -1e-12 && b.time - a.time < 2e-5, "{} {}", a.time, b.time);
+        assert!(b.time - a.time >= -1e-12 && b.time - a.time < 8e-6, "{} {}", a.time, b.time);
         assert_eq!(a.particle, b.particle);
     }
-    assert!(exact.iter().any(|a| (a.time / 2e-5).fract() > 0.1 && (a.time / 2e-5).fract() < 0.9));
+    assert!(exact.iter().any(|a| (a.time / 8e-6).fract() > 0.1 && (a.time / 8e-6).fract() < 0.9));
 }

@@ -4,6 +4,7 @@
 
 use crate::model::StateMismatch;
 use crate::setup::{EntryClump, Particle, Sample, Setup};
+use crate::space::sphere::away;
 use crate::state::{
     Bonds, CellState, ClumpMotion, Direction, FREE, Forces, Held, ListStatus, Particles, RigidClumps,
     ServoState, Sleepers, State, ZoneParticle, Zones,
@@ -73,8 +74,9 @@ impl Particles {
         lengths
             && material.iter().all(|&m| (m as usize) < setup.materials.len())
             && ids.windows(2).all(|two| two[0] != two[1])
-            && rows[..n].iter().all(|row| row[3] > 0.0 && row[7] > 0.0 && row.iter().all(is_meant))
-            && home.iter().all(|home| home[3] >= 0.0 && home.iter().all(is_meant))
+            && rows[..n].iter().all(|row| row[3] > 0.0 && row[7] > 0.0 && row[3..].iter().all(is_meant))
+            && home.iter().all(|home| home[3] >= 0.0 && is_meant(&home[3]))
+            && (0..n).all(|k| is_somewhere(k, &rows[k][..3]) && is_somewhere(k, &home[k][..3]))
     }
 }
 
@@ -86,6 +88,11 @@ fn has_shape(clump: &Option<EntryClump>, setup: &Setup) -> bool {
 /// Whether a number of a state can be meant.
 fn is_meant(x: &f64) -> bool {
     x.abs() < HUGE
+}
+
+/// Whether the place of particle `k` can be meant: that where what has left waits for the next listing is far beyond.
+fn is_somewhere(k: usize, place: &[f64]) -> bool {
+    place.iter().all(is_meant) || place == away(k)
 }
 
 /// Whether all numbers of a particle can be meant.

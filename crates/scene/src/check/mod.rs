@@ -111,7 +111,7 @@ impl Check<'_> {
         }
     }
 
-    /// The period of what runs from `from` to `until` again and again; it ends before it starts anew.
+    /// The period of what runs from `from` to `until` again and again; it ends before it starts again.
     pub(crate) fn repeat(
         &self,
         entry: &str,

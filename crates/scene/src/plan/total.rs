@@ -23,7 +23,7 @@ impl Total {
         self.count.is_none_or(|most| count < most) && self.mass.is_none_or(|most| mass + next() / 2.0 <= most)
     }
 
-    /// Begins anew.
+    /// Begins again.
     pub(super) fn begin(&mut self) {
         self.inserted = (0, 0.0);
     }

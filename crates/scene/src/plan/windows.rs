@@ -59,7 +59,7 @@ impl Windows {
         more
     }
 
-    /// Whether both are open at one time, when each stays open longer by a time [s] of its own. Two that repeat in different periods count as such unless one is over
+    /// Whether both are open at one time, when each stays open longer by a time [s]. Two that repeat in different periods count as such unless one is over
     /// before the other begins.
     pub(super) fn meet(&self, other: &Windows, longer: f64, other_longer: f64) -> bool {
         let end = |w: &Windows, longer: f64| w.until + w.shift(w.times - 1.0) + longer;
