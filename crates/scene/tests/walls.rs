@@ -145,8 +145,8 @@ fn walls_of_every_kind_are_put_in_their_place() {
     let place = "place = { rotate = { about = [0, 0, 1], through = [1, 0, 0], angle = \"90 deg\" }, translate = [0, 0, 2] }\n";
     let right = |at: &Vec3| Vec3::new(1.0 - at.y, at.x - 1.0, at.z + 2.0);
     let kinds = [
-        "plane = \"0.3,0.2,0.1,0,1,1\"\n",
-        "box = [0, 0, -1, 1, 2, 3]\nfaces = [\"x-\", \"y+\"]\n",
+        "plane = \"0.3,0.2,-9,0,1,1\"\n",
+        "box = [0, 0, -1, 1, 9, 3]\nfaces = [\"x-\", \"y+\"]\n",
         "solid = \"box:0,0,0,1,2,3\"\n",
         "solid = \"sphere:0.1,0.2,0.3,0.5\"\n",
         "mesh = \"gate.obj\"\n",

@@ -246,7 +246,8 @@ fn an_input_that_is_given_twice_or_that_nothing_waits_for_is_refused() {
 
 #[test]
 fn a_grain_that_starts_in_a_wall_is_refused_before_the_run() {
-    let folder = with(&poured().replace("plane = \"0,0,0,0,0,1\"", "plane = \"0,0,0.003,0,0,1\""));
+    let folder = with(&(poured() + "[[particles]]\nsource = \"low.csv\"\nmaterial = \"sinter\"\n"));
+    fs::write(folder.path().join("low.csv"), "x,y,z,radius\n0.3,0,0.003,0.005\n").unwrap();
     let inside = ["s.toml: particle ", " starts inside wall '", "(overlap ", "m): move it"];
     refused(folder.path(), "dem-run s.toml -o x.mcap", 1, &inside);
     refused(folder.path(), "dem-run s.toml --check", 1, &inside);

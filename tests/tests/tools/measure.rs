@@ -264,10 +264,14 @@ fn recorded_contacts_give_numbers_forces_and_wear() {
     let left = measure(&folder, &["--wall-force", "box:-1,-1,-1,0.01,1,1"]);
     assert_eq!(column(&left, "fz"), [-2.0, -4.0]);
     let wear = measure(&folder, &["--wear", "all", "--wall", "0", "--plot", "wear.png"]);
-    assert_eq!((column(&wear, "x"), column(&wear, "sliding_work")), (vec![0.0, 0.02], vec![0.5, 1.0]));
+    assert_eq!(
+        (column(&wear, "x"), column(&wear, "sliding_work")),
+        (vec![0.0, 0.02, 0.04], vec![0.5, 1.0, 0.0])
+    );
     assert_eq!(
         (column(&wear, "mean_normal"), column(&wear, "largest_normal")),
-        (vec![3.0, 1.0], vec![4.0, 1.0])
+        (vec![3.0, 1.0, 0.0], vec![4.0, 1.0, 0.0]),
+        "a sphere that nothing touched has a row, too"
     );
     let cells = measure(&folder, &["--wear", "all", "--wall", "floor", "--cell", "0.02"]);
     assert_eq!(

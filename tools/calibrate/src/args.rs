@@ -77,10 +77,20 @@ impl Args {
         self.recipe.as_deref().ok_or_else(|| cli::usage("name a recipe: calibrate RECIPE.toml"))
     }
 
-    /// Refuses names of another format.
+    /// Refuses names of another format, and files that cannot be written, before anything is run for them.
+    ///
+    /// # Errors
+    /// The first of these.
     pub fn check_names(&self) -> anyhow::Result<()> {
         if let Some(file) = &self.plot {
             plot::check_name(file).map_err(|e| cli::usage(format!("--plot {e}")))?;
+        }
+        let more = [&self.plot, &self.page, &self.design, &self.samples, &self.words];
+        let files = more.into_iter().filter_map(Option::as_deref).chain(self.output.path());
+        // A pipe or a device is opened when there is something to write: its reader would take this for the end.
+        for file in files.filter(|file| file.metadata().map_or(true, |kind| kind.is_file() || kind.is_dir()))
+        {
+            drop(cli::OutputStream::file(file)?);
         }
         Ok(())
     }

@@ -50,6 +50,9 @@ fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {
             cli::warn(&format!("{name} changes nothing in this picture: leave it out"));
         }
     }
+    if args.time.is_some() && options.time.is_none() {
+        cli::warn("--time changes nothing in this picture: what is drawn has no times: leave it out");
+    }
     args.warn_of_size(image.subject, [image.width, image.height]);
     counts::warn_of_outside(image.outside, "the picture");
     let mut out: OutputStream = output.open()?;

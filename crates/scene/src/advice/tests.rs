@@ -205,7 +205,12 @@ fn halts() -> Vec<Advice<Halt>> {
     vec![
         (
             Halt::Overlap { time, id, partner: wall(), position, overlap: 0.1, share, limit, stiffer },
-            &["particle 7", WALL, "50.0 %", "(young of glass ≥ 2.00e7 Pa for an approach at 3.000e0 m/s)"],
+            &[
+                "particle 7",
+                WALL,
+                "50.0 %",
+                "(young of glass ≥ 2.00e7 Pa for an approach at 3.000e0 m/s, 5.00e7 Pa for the hardest impact of grains near it)",
+            ],
         ),
         (
             Halt::InletOverlap { time, id, by, partner: wall(), position, overlap: 0.1, share, limit },

@@ -140,6 +140,8 @@ diameter = [0.008, 0.01]
 velocity = [0, 0, -1]
 rate_count = 2000
 count = 2
+until = 0.001
+repeat = 0.002
 [[wall]]
 box = [0, 0, -1, 1, 1, 2]
 faces = ["x-", "x+", "y-", "y+"]

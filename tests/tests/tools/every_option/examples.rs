@@ -65,7 +65,7 @@ pub const EXAMPLES: &[&str] = &[
     "stage-split plant.toml --at 0,0,0.02,0,0,-1 --keep upstream --length 0.03 --motion constant --test centre -o x.toml --report r.json --threads 2 -q",
     "stage-split plant.toml --at 0,0,0.02,0,0,-1 --keep upstream --motion recorded --output up2.toml --quiet",
     "stage-split plant.toml --at 0,0,0.02,0,0,-1 --keep downstream --motion ballistic --test lowest -o down.toml",
-    "stage-replay up.mcap --at 0,0,0.02,0,0,-1 --length 0.03 --from 0.001 --until 0.04 --outlet 0 --intervals both --move constant --ahead 0.01 -o in1.mcap --report r.json --threads 2 -q",
+    "stage-replay up.mcap --at 0,0,0.02,0,0,-1 --length 0.03 --from 0.001 --until 0.04 --outlet 0 --intervals both --passage time --move constant --ahead 0.01 -o in1.mcap --report r.json --threads 2 -q",
     "stage-replay up.mcap --keep-times --intervals generation --passage steps --move ballistic --first-id 1000 --output in2.mcap --quiet",
     "stage-replay up.mcap --move recorded -o in3.mcap",
     "stage-replay up.mcap --move constant --turn-deg 90 --axis 0,0,0,0,0,1 --shift 0.1,0,0 --repeat 2 --period 0.1 --copies 2 --copy-shift 0.2,0,0 --copy-delay 0.01 -o in4.mcap",
