@@ -156,10 +156,10 @@ impl Observer for Wear {
     }
 
     fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let RunMessage::Contacts(contacts) = message else { return Ok(()) };
-        if self.contact_frames == 0 {
+        if self.home.is_empty() {
             self.home.clone_from(&run.spheres.position);
         }
+        let RunMessage::Contacts(contacts) = message else { return Ok(()) };
         self.contact_frames += 1;
         if self.cell.is_none() && run.spheres.position.is_empty() {
             let cure = "give --cell M for a map by cells of space";

@@ -262,7 +262,7 @@ mod tests {
 
     #[test]
     fn wear_is_that_of_a_run_at_the_nearest_of_its_places() {
-        let csv = "x [m],y [m],z [m],radius [m],sliding_work [J]\n1,0,0,0.1,0\n2,0,0,0.1,10\n2,5,0,0.1,2.5\n";
+        let csv = "x [m],y [m],z [m],radius [m],sliding_work [J]\n1,0,0,0.3,0\n2,0,0,0.3,10\n2,5,0,0.3,2.5\n";
         let of = |keys: &str| {
             let section =
                 toml::from_str(&format!("table = 't.csv'\nalong = [1, 0, 0]\nfrom = [1, 0, 0]\n{keys}"));
@@ -270,10 +270,16 @@ mod tests {
             Wear::new(section.unwrap(), &text, &|_| Err("no drawing".to_owned()))
         };
         let wear = of("run = 'r.csv'\nmeasured = 'sliding_work'").unwrap();
-        let points = [Vec3::new(1.2, 0.1, 0.3), Vec3::new(1.7, 0.0, -0.2), Vec3::new(1.0, 90.0, 0.0)];
+        let points = [Vec3::new(1.2, 0.1, 0.3), Vec3::new(1.7, 0.0, -0.2), Vec3::new(2.0, 5.5, 0.0)];
         let (_, report) = wear.roughness(&points, &|_| None, None).unwrap();
         assert_eq!(wear.measured(&points, &|_| None), Ok(vec![0.0, 10.0, 2.5]));
         assert_eq!((report.wear, report.not_measured), ([0.0, 10.0], 0));
+        // Another wall was not measured.
+        let far = [Vec3::new(1.0, 90.0, 0.0)];
+        assert!(matches!(
+            wear.roughness(&far, &|_| None, None),
+            Err(WearError::NotMeasured { point: 0, .. })
+        ));
         for (keys, part) in [
             ("run = 'r.csv'", "measured = \"sliding_work\""),
             ("run = 'r.csv'\nvalue = 3", "leave drawing and value out"),

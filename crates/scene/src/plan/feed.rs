@@ -188,11 +188,24 @@ impl Feed {
         (self.time < self.windows.until() && self.total.has_room(next)).then_some(self.time)
     }
 
-    /// Turns to the next window when this one is over.
+    /// Turns to a later window when this one is over. What would come so long after its end comes as long after the start of the next: a rate is one over
+    /// the time that the windows are open.
     fn turn_over(&mut self) {
-        if self.next_time().is_none() && self.windows.advance() {
-            self.time = self.windows.from();
+        if self.next_time().is_some() {
+            return;
+        }
+        let length = self.windows.until() - self.windows.from();
+        let over = (self.time - self.windows.until()).max(0.0);
+        let mut whole = (over / length).floor();
+        let mut rest = over - whole * length;
+        while self.windows.advance(1.0 + whole) {
+            self.time = self.windows.from() + rest;
             self.total.begin();
+            if self.time < self.windows.until() {
+                return;
+            }
+            // Rounded up to the end.
+            (whole, rest) = (0.0, 0.0);
         }
     }
 

@@ -215,6 +215,13 @@ mod tests {
         let ores = [1.5, 3.5, 5.5].map(|from| window(from).count());
         assert_eq!(ores, [30, 30, 0]);
         assert!((expected / all.len() as f64 - 1.0).abs() < 0.1, "{expected} of {}", all.len());
+        // A rate is one over the time that it is open, however short that is.
+        for (until, repeat, number) in [(0.2, 0.2, 203), (0.001, 0.02, 11), (0.1, 0.2, 102)] {
+            let keys = format!("velocity = [0, 0, -1]\nrate_count = 203\nuntil = {until}\nrepeat = {repeat}");
+            let mut found = several(&[&keys]).unwrap();
+            let next = || found[0].next_entry().unwrap().filter(|e| e.time < 1.0);
+            assert_eq!(std::iter::from_fn(next).count(), number, "{until} of {repeat} s");
+        }
         let wrong = [
             ("until = 1\nrepeat = 0.5", "insert.0.repeat = 0.5 s: is shorter than the 1 s"),
             ("repeat = 2", "repeats what never ends; add insert.0.until"),

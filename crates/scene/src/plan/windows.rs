@@ -50,11 +50,11 @@ impl Windows {
         self.until + self.shift(self.past)
     }
 
-    /// Goes on to the next; false after the last.
-    pub(super) fn advance(&mut self) -> bool {
-        let more = self.past + 1.0 < self.times;
+    /// Goes on by so many; false after the last.
+    pub(super) fn advance(&mut self, by: f64) -> bool {
+        let more = self.past + by < self.times;
         if more {
-            self.past += 1.0;
+            self.past += by;
         }
         more
     }
@@ -115,7 +115,7 @@ mod tests {
                 return all;
             }
             all.push((w.from(), w.until()));
-            if !w.advance() {
+            if !w.advance(1.0) {
                 return all;
             }
         }

@@ -4,11 +4,16 @@ use super::{Load, WearError};
 use geom::{Grid, Vec3};
 use rayon::prelude::*;
 
+/// A point of a wall is at most this many radii from the centre of its sphere [–]; more is another wall.
+const REACH: f64 = 2.0;
+
 /// What was measured at places [m].
 #[derive(Debug, Clone)]
 pub(super) struct Places {
     at: Vec<Vec3>,
     wears: Vec<f64>,
+    /// How far from each its wear counts [m].
+    reach: Vec<f64>,
 }
 
 impl Places {
@@ -25,27 +30,28 @@ impl Places {
                 || wrong(format!("has no column '{name}': give a table that dem-measure --wear wrote"));
             names.iter().position(|n| *n == name).ok_or_else(missing)
         };
-        let columns = [find("x")?, find("y")?, find("z")?, find(column)?];
-        let (mut at, mut wears) = (Vec::new(), Vec::new());
+        let columns = [find("x")?, find("y")?, find("z")?, find("radius")?, find(column)?];
+        let (mut at, mut wears, mut reach) = (Vec::new(), Vec::new(), Vec::new());
         for (line, row) in lines {
             let cells: Vec<&str> = row.split(',').map(str::trim).collect();
             let numbers =
                 columns.map(|k| cells.get(k).and_then(|c| c.parse::<f64>().ok()).filter(|x| x.is_finite()));
-            let [Some(x), Some(y), Some(z), Some(wear)] = numbers else {
+            let [Some(x), Some(y), Some(z), Some(radius), Some(wear)] = numbers else {
                 let (file, what) = (file.to_owned(), "a line has a place and a wear, not");
                 return Err(WearError::Line { file, line, what, text: row.chars().take(60).collect() });
             };
             at.push(Vec3::new(x, y, z));
             wears.push(wear);
+            reach.push(REACH * radius);
         }
         if at.is_empty() {
             Err(wrong("has no line below its names".to_owned()))
         } else {
-            Ok(Places { at, wears })
+            Ok(Places { at, wears, reach })
         }
     }
 
-    /// The wear at the place nearest to each point [m].
+    /// The wear at the place nearest to each point [m]; not a number where that is farther away than twice its radius.
     pub(super) fn nearest(&self, points: &[Vec3]) -> Vec<f64> {
         let (low, high) = geom::grid::bounds(&self.at);
         let first = ((high - low).norm() / (self.at.len() as f64).sqrt()).max(1e-9);
@@ -60,6 +66,7 @@ impl Places {
                     .within(&self.at, *p, reach)
                     .min_by(|a, b| apart(a).total_cmp(&apart(b)).then(a.cmp(b)));
                 match near {
+                    Some(k) if apart(&k).sqrt() > self.reach[k as usize] => return f64::NAN,
                     Some(k) => return self.wears[k as usize],
                     None if reach > most => return f64::NAN,
                     None => reach *= 2.0,
