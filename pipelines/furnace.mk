@@ -71,7 +71,7 @@ $(FURNACE)/picture.png: $(FURNACE)/seed-1/upstream.mcap $(FURNACE)/seed-1/inward
 	dem-view $^ --time 9.5 --camera front --cut --colour material --size 700x1000 -o $@
 
 furnace-study: $(foreach f,$(FURNACE_FOLDERS),$(patsubst %,$(f)/%.csv,undivided $(FURNACE_RUNS))) ## the same with the undivided plant beside it; writes the tables of docs/furnace.md (FURNACE_SEEDS="1 2 3")
-	{ echo; furnace/profile.sh undivided $(FURNACE_RUNS) -- $(FURNACE_FOLDERS); } > $(FURNACE)/study.md
+	furnace/profile.sh undivided $(FURNACE_RUNS) -- $(FURNACE_FOLDERS) > $(FURNACE)/study.md
 	stages/section.sh ../docs/furnace.md profile < $(FURNACE)/study.md
 
 # The full form: its drawings, its chute, and what it takes.

@@ -33,7 +33,7 @@ FNR == 1 {
 }
 END {
   count = split(names, name_of, " ")
-  split("height mass share", what_of, " "); split("Height over the old stock line at the wall [mm]|Mass [kg]|Ore, share of the mass [%]", title, "|")
+  split("height mass share", what_of, " "); split("Height [mm]|Mass [kg]|Ore, share of the mass [%]", title, "|")
   for (w = 1; w <= 3; w++) {
     printf "%s:\n\n| r [m] |", title[w]
     for (k = 1; k <= count; k++) printf " %s |", name_of[k]
