@@ -21,7 +21,7 @@ FURNACE_BUILD := build-furnace
 .SECONDARY: $(foreach f,$(FURNACE_FOLDERS),$(patsubst %,$(f)/%.mcap,upstream inlet undivided $(PROGRAMMES) worn) $(f)/wear.csv)
 build-furnace:
 	$(call cargo,the tools of the furnace,$(addprefix -p ,$(MAIN_JOB) stage-split stage-replay dem-measure))
-furnace: $(FURNACE)/profile.md $(FURNACE)/page.html $(FURNACE)/picture.png ## a blast furnace charged from conveyor to burden: one run upstream, three tilt programmes downstream, a worn chute (3 minutes)
+furnace: $(FURNACE)/profile.md $(FURNACE)/page.html $(FURNACE)/picture.png ## a blast furnace charged from conveyor to burden: one run upstream, three tilt programmes downstream, a worn chute (a few minutes)
 	@cat $(FURNACE)/profile.md
 	@echo "page     $(abspath $(FURNACE))/page.html"
 	@echo "picture  $(abspath $(FURNACE))/picture.png"
