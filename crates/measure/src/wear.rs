@@ -2,7 +2,7 @@
 //!
 //! Sliding work W = Σ |F_t · slip| is what Archard's law (1953, J. Appl. Phys. 24, DOI 10.1063/1.1721448) turns into a
 //! worn volume, k W / (μ H). A contact belongs to the wall sphere whose surface is nearest to its point, wherever the
-//! sphere is at that time, or to the cube of space it lies in. A sphere is listed where it was when the run began, so that the map of a
+//! sphere is at that time, or to the cube of space it lies in. A sphere is listed where it was in the first frame that is measured, so that the map of a
 //! wall that moves is one of its body; the area of a cube is taken as the square of its side,
 //! which is that of a flat wall along a face of it.
 
