@@ -37,9 +37,9 @@ $(FURNACE)/seed-%/upstream.mcap: $(FURNACE)/upstream.toml
 $(FURNACE)/seed-%/inlet.mcap: $(FURNACE)/seed-%/upstream.mcap
 	stage-replay $< --keep-times -o $@
 
-# A tilt programme is one key.
-TILT = --set wall.$(shell awk '/^\[\[wall\]\]/ { n++ } /^name = "chute"/ { print n - 1 }' $(FURNACE)/downstream.toml).motion.0.path.source=$(abspath furnace)/tilt-$(1).csv
-CHUTE = wall.$(shell awk '/^\[\[wall\]\]/ { n++ } /^name = "chute"/ { print n - 1 }' $(FURNACE)/downstream.toml).source
+# The chute among the walls of the downstream stage; a tilt programme is one key of it.
+CHUTE = wall.$(shell awk '/^\[\[wall\]\]/ { n++ } /^name = "chute"/ { print n - 1 }' $(FURNACE)/downstream.toml)
+TILT = --set $(CHUTE).motion.0.path.source=$(abspath furnace)/tilt-$(1).csv
 define programme
 $(FURNACE)/seed-%/$(1).mcap: $(FURNACE)/seed-%/inlet.mcap $(FURNACE)/downstream.toml furnace/tilt-$(1).csv
 	dem-run $(FURNACE)/downstream.toml $$< $$(call TILT,$(1)) $(2) --threads 1 -o $$@
@@ -54,7 +54,7 @@ $(FURNACE)/seed-%/wear.csv: $(FURNACE)/seed-%/inwards.mcap
 $(FURNACE)/chute-worn.mcap: $(FURNACE)/seed-1/wear.csv furnace/roughness.toml furnace/wear-table.csv
 	$(CHUTE_WALL) --roughness furnace/roughness.toml -o $@
 $(FURNACE)/seed-%/worn.mcap: $(FURNACE)/seed-%/inlet.mcap $(FURNACE)/chute-worn.mcap
-	dem-run $(FURNACE)/downstream.toml $< $(call TILT,inwards) --set $(CHUTE)=$(abspath $(FURNACE))/chute-worn.mcap --threads 1 -o $@
+	dem-run $(FURNACE)/downstream.toml $< $(call TILT,inwards) --set $(CHUTE).source=$(abspath $(FURNACE))/chute-worn.mcap --threads 1 -o $@
 # The undivided plant, to compare with.
 $(FURNACE)/seed-%/undivided.mcap: furnace/plant.toml $(FURNACE)/chute.mcap
 	@mkdir -p $(@D)
@@ -65,8 +65,8 @@ $(FURNACE)/seed-%.csv: $(FURNACE)/seed-%.mcap
 FURNACE_RUNS := $(PROGRAMMES) worn
 $(FURNACE)/profile.md: $(foreach f,$(FURNACE_FOLDERS),$(FURNACE_RUNS:%=$(f)/%.csv)) furnace/profile.sh
 	furnace/profile.sh $(FURNACE_RUNS) -- $(FURNACE_FOLDERS) > $@
-$(FURNACE)/page.html: $(FURNACE)/seed-1/upstream.mcap $(FURNACE)/seed-1/inwards.mcap
-	dem-view $(FURNACE)/seed-1/inwards.mcap --colour material -o $@
+$(FURNACE)/page.html: $(FURNACE)/seed-1/inwards.mcap
+	dem-view $< --colour material -o $@
 $(FURNACE)/picture.png: $(FURNACE)/seed-1/upstream.mcap $(FURNACE)/seed-1/inwards.mcap
 	dem-view $^ --time 9.5 --camera front --cut --colour material --size 700x1000 -o $@
 
