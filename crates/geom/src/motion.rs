@@ -10,6 +10,7 @@
 //! A list of motions is their composition: each acts on what the ones before it have moved, so that the axis of a turn is carried by
 //! the motions that follow. The shift of a list is the way of one point of the wall, [`Motion::reference`]. Every motion is the identity until it starts: there are no jumps.
 
+mod bound;
 mod path;
 mod pose;
 
@@ -222,27 +223,6 @@ impl Motion {
             velocity += at.velocity;
         }
         pose.shifted(shift, velocity * rate)
-    }
-
-    /// Upper bound of the speed [m/s] of points whose distance from a point of an axis is at most `span` of that point [m].
-    ///
-    /// ∞ where a part carries the wall away from the axis of a later one for ever.
-    pub fn fastest(&self, span: impl Fn(&Vec3) -> f64) -> f64 {
-        let (mut sum, mut carried) = (0.0, 0.0);
-        for m in self.parts() {
-            let path = m.path.as_ref().map_or((0.0, 0.0), Path::fastest);
-            let turning = m.turn.norm()
-                + 2.0 * PI * if m.swings() { m.swing_frequency.abs() * m.swing.norm() } else { 0.0 }
-                + path.1;
-            let reach = if turning == 0.0 { 0.0 } else { span(&m.through) + carried };
-            let vibration = 2.0 * PI * m.frequency.abs() * m.amplitude.norm();
-            sum +=
-                m.velocity.norm() + vibration + path.0 + if turning == 0.0 { 0.0 } else { turning * reach };
-            let open = if m.period.is_finite() { f64::INFINITY } else { m.until - m.from };
-            let far = if m.velocity == Vec3::zeros() { 0.0 } else { m.velocity.norm() * open };
-            carried += far + m.amplitude.norm() + m.path.as_ref().map_or(0.0, Path::farthest) + 2.0 * reach;
-        }
-        sum
     }
 }
 

@@ -200,3 +200,75 @@ fn a_motion_that_repeats_is_that_of_its_times_written_out() {
         }
     }
 }
+
+/// Numbers from 0 to 1 in a fixed order (Marsaglia 2003, doi:10.18637/jss.v008.i14).
+fn random(state: &mut u64) -> f64 {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    (*state >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// A part of any kind at any time, a third of them again and again.
+fn any_part(state: &mut u64) -> Motion {
+    let mut number = |low: f64, high: f64| low + (high - low) * random(state);
+    let vector = |number: &mut dyn FnMut(f64, f64) -> f64| {
+        Vec3::new(number(-1.0, 1.0), number(-1.0, 1.0), number(-1.0, 1.0))
+    };
+    let (kind, from, axis, point) =
+        (number(0.0, 5.0), number(0.0, 2.0), vector(&mut number), vector(&mut number));
+    let window = Motion { from, until: from + number(0.1, 0.5), through: point, ..Motion::default() };
+    let period = if number(0.0, 3.0) < 1.0 { 0.5 + number(0.0, 2.0).floor() } else { f64::INFINITY };
+    let (window, ramp) = (Motion { period, ..window }, number(0.0, 0.05));
+    let row = |time, x: f64, angle| PathRow { time, shift: axis * x, angle };
+    match kind as u32 {
+        0 => Motion { velocity: axis, ramp, ..window },
+        1 => Motion { turn: axis, ramp, ..window },
+        2 => Motion { amplitude: axis * 0.1, frequency: number(1.0, 5.0), period: f64::INFINITY, ..window },
+        3 => Motion { swing: axis, swing_frequency: number(1.0, 5.0), period: f64::INFINITY, ..window },
+        _ => {
+            let rows = vec![row(0.0, 0.0, 0.0), row(0.1, 0.3, 0.4), row(0.3, number(-1.0, 1.0).round(), 0.0)];
+            Motion { path: Path::new(point, rows).ok(), ..window }
+        }
+    }
+}
+
+#[test]
+fn no_point_of_any_list_is_faster_than_its_bound() {
+    let (mut state, mut finite) = (20_040_713, 0);
+    for _ in 0..400 {
+        let count = 1 + (6.0 * random(&mut state)) as usize;
+        let motion = Motion::of((0..count).map(|_| any_part(&mut state)).collect());
+        let home = Vec3::new(random(&mut state), random(&mut state), random(&mut state));
+        let bound = motion.fastest(|axis| (home - axis).norm());
+        finite += usize::from(bound.is_finite());
+        for k in 0..1000 {
+            let pose = motion.pose(5e-3 * f64::from(k));
+            let speed = pose.velocity(&pose.position(&home)).norm();
+            assert!(speed <= bound * (1.0 + 1e-12), "{motion:?} at step {k}: {speed} m/s, bound {bound} m/s");
+        }
+    }
+    assert!(finite > 200, "{finite}");
+}
+
+#[test]
+fn turns_one_after_the_other_about_one_axis_are_as_fast_as_one_of_them() {
+    let turn = |k: i32, period: f64, until: f64| {
+        let from = until * f64::from(k);
+        let rate = if k % 2 == 0 { 2.0 } else { -2.0 };
+        Motion {
+            turn: Vec3::new(0.0, rate, 0.0),
+            through: Vec3::x(),
+            from,
+            until: from + until,
+            period,
+            ..Motion::default()
+        }
+    };
+    let span = |point: &Vec3| (Vec3::new(4.0, 0.0, 0.0) - point).norm();
+    let list = |period: f64, count: i32| Motion::of((0..count).map(|k| turn(k, period, 0.1)).collect());
+    assert_eq!(list(f64::INFINITY, 1).fastest(span), 6.0);
+    assert_eq!(list(f64::INFINITY, 40).fastest(span), 6.0);
+    assert_eq!(list(4.5, 40).fastest(span), 6.0, "within the period");
+    assert_eq!(list(1.05, 11).fastest(span), 12.0, "the last runs on into the next period");
+}
