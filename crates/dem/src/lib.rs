@@ -84,7 +84,7 @@ pub use observe::record::ContactRecord;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use observe::snapshot::Snapshot;
 #[cfg(not(target_arch = "nvptx64"))]
-pub use observe::stiffen::{DeepImpact, deep_impact};
+pub use observe::stiffen::{DeepImpact, Impacting, deep_impact};
 #[cfg(not(target_arch = "nvptx64"))]
 pub use passes::cell::CellReport;
 #[cfg(not(target_arch = "nvptx64"))]

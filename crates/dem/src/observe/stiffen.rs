@@ -7,9 +7,8 @@
 
 use crate::effects::{ContactLaw, Elastic, MODULI, Material, OverlapLimit, damping_ratios};
 use crate::model::dense_walls::met;
-use crate::model::limit::{contact_between, grains, stiffest};
+use crate::model::limit::{contact_between, stiffest};
 use crate::model::{Model, Stiffer};
-use crate::setup::clumps::SizeClass;
 use crate::setup::{Setup, Wall};
 
 /// Share of the guard that the approach is to stay within [–].
@@ -149,17 +148,24 @@ fn left_at_depth(gamma: f64) -> f64 {
     libm::exp(-2.0 * turn)
 }
 
-/// The deepest first impact on a wall at a speed [m/s], of the sizes and materials that a setup has; `None` where the overlap guard bears them all. Dampers
-/// count as that of a linear law.
-pub fn deep_impact(setup: &Setup, wall: &Wall, speed: f64) -> Option<DeepImpact> {
+/// A sphere, or the sphere of a clump that meets a wall, and what it is slowed with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impacting {
+    /// Index of its material.
+    pub material: u16,
+    /// Its radius [m].
+    pub radius: f64,
+    /// Mass of the whole [kg].
+    pub mass: f64,
+}
+
+/// How deep an impact on a wall at a speed [m/s] along its normal is; `None` where the overlap guard bears it. Dampers count as that of a linear law.
+pub fn deep_impact(setup: &Setup, wall: &Wall, grain: &Impacting, speed: f64) -> Option<DeepImpact> {
     let limit = setup.guards.overlap;
-    let impact = |grain: &SizeClass| {
-        let spring = Spring::new(setup, (grain.material, wall.material), met(wall, grain.radius), limit)?;
-        let left = left_at_depth(spring.damping_ratio(grain.inverse_mass));
-        let times = left * 0.5 * speed * speed / grain.inverse_mass / spring.stored;
-        let share = limit * libm::pow(times, 1.0 / (spring.power + 1.0));
-        let stiffer = spring.stiffer(times * libm::pow(WITHIN, -spring.power - 1.0), speed)?;
-        (times > 1.0).then_some(DeepImpact { radius: grain.radius, share, stiffer })
-    };
-    grains(setup).iter().filter_map(impact).max_by(|a, b| a.share.total_cmp(&b.share))
+    let spring = Spring::new(setup, (grain.material, wall.material), met(wall, grain.radius), limit)?;
+    let left = left_at_depth(spring.damping_ratio(1.0 / grain.mass));
+    let times = left * 0.5 * speed * speed * grain.mass / spring.stored;
+    let share = limit * libm::pow(times, 1.0 / (spring.power + 1.0));
+    let stiffer = spring.stiffer(times * libm::pow(WITHIN, -spring.power - 1.0), speed)?;
+    (times > 1.0).then_some(DeepImpact { radius: grain.radius, share, stiffer })
 }

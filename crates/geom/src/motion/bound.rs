@@ -22,7 +22,8 @@ impl Motion {
     pub fn fastest(&self, span: impl Fn(&Vec3) -> f64) -> f64 {
         let parts: Vec<(&Motion, f64)> =
             self.parts().enumerate().map(|(k, part)| (part, self.speed_of(k, part, &span))).collect();
-        let (again, once): (Vec<_>, Vec<_>) = parts.into_iter().partition(|(part, _)| part.period.is_finite());
+        let (again, once): (Vec<_>, Vec<_>) =
+            parts.into_iter().partition(|(part, _)| part.period.is_finite());
         let started = |part: &Motion| part.from * (1.0 + ROUNDING);
         let at_once = most(once.iter().map(|(part, _)| sum(&once, |other| other.runs_alone(started(part)))));
         let mut periods: Vec<f64> = again.iter().map(|(part, _)| part.period).collect();

@@ -111,18 +111,20 @@ impl Check<'_> {
         }
     }
 
-    /// The period of what runs from `from` to `until` again and again; it ends before it starts again.
+    /// The period of what runs from `from` to `until` again and again; it ends before it starts again. What ends `by_itself` needs no `until`.
     pub(crate) fn repeat(
         &self,
         entry: &str,
         repeat: Option<f64>,
         from: f64,
         until: Option<f64>,
+        by_itself: bool,
     ) -> Result<()> {
         let (Some(period), key) = (repeat, format!("{entry}.repeat")) else { return Ok(()) };
         self.positive(&key, repeat, "s")?;
         let value = format!("{period} s");
         match until {
+            None if by_itself => Ok(()),
             None => Err(self.wrong(&key, value, "repeats what never ends", &format!("add {entry}.until"))),
             Some(until) if period < until - from => {
                 let why =

@@ -88,7 +88,7 @@ impl Check<'_> {
         self.finite(&key("velocity"), &f.velocity, "m/s")?;
         self.within(&key("from"), f.from, 0.0, record::LATEST, "s")?;
         self.until(&key("until"), f.until, f.from)?;
-        self.repeat(entry, f.repeat, f.from, f.until)?;
+        self.repeat(entry, f.repeat, f.from, f.until, f.mass.is_some() || f.count.is_some())?;
         match f.times {
             Some(0) => Err(self.wrong(&key("times"), "0", "nothing would be inserted", "give at least 1")),
             Some(n) if f.repeat.is_none() => {

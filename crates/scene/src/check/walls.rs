@@ -159,13 +159,13 @@ impl Check<'_> {
         self.finite(&key("from"), &[motion.from], "s")?;
         self.until(&key("until"), motion.until, motion.from)?;
         self.finite(&key("ramp"), &[motion.ramp], "s")?;
-        let longest = 0.5 * (motion.until.unwrap_or(f64::INFINITY) - motion.from);
+        let longest = 0.5 * (motion.ends().unwrap_or(f64::INFINITY) - motion.from);
         if !(0.0..=longest).contains(&motion.ramp) {
             let why = "does not fit: the motion takes it to start, and again to end";
             let cure = "give at most half of the time from `from` to `until`";
             return Err(self.wrong(&key("ramp"), format!("{} s", motion.ramp), why, cure));
         }
-        self.repeat(entry, motion.repeat, motion.from, motion.until)?;
+        self.repeat(entry, motion.repeat, motion.from, motion.until, motion.path.is_some())?;
         motion.rotate.as_ref().map_or(Ok(()), |r| self.rotate(&key("rotate"), r))?;
         if let Some(s) = &motion.swing {
             self.direction(&key("swing.about"), s.about, "such as [0, 1, 0]")?;

@@ -309,6 +309,11 @@ impl Fill {
 }
 
 impl Insert {
+    /// When it closes for the first time [s]: what repeats is open for a period at most.
+    pub fn ends(&self) -> Option<f64> {
+        self.until.or(self.repeat.map(|period| self.from + period))
+    }
+
     /// Names of the materials of its spheres, and the file of its sizes.
     pub fn grains(&self) -> (Vec<String>, Option<String>) {
         grains(&self.material, &self.sizes)

@@ -157,6 +157,13 @@ pub struct Motion {
     pub repeat: Option<f64>,
 }
 
+impl Motion {
+    /// When it stops for the first time [s]: what repeats runs for a period at most.
+    pub fn ends(&self) -> Option<f64> {
+        self.until.or(self.repeat.map(|period| self.from + period))
+    }
+}
+
 /// A swing about a fixed axis.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

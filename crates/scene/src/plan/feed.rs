@@ -54,6 +54,16 @@ pub(super) struct Inserted {
     pub ids: u32,
 }
 
+/// A grain that it brings.
+pub(super) struct Coming {
+    /// Index of its material.
+    pub material: u16,
+    /// Of the sphere that holds it [m].
+    pub radius: f64,
+    /// Index of the shape and scale of a clump.
+    pub clump: Option<(u32, f64)>,
+}
+
 /// The shape of inserted clumps.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InsertedClump {
@@ -123,6 +133,14 @@ impl Feed {
     /// The middle of where its grains become free, and how fast they are there.
     pub(super) fn leaves(&self) -> (Vec3, Vec3) {
         (self.section.zone().plane.point, self.velocity)
+    }
+
+    /// The smallest and the largest that it brings of each of its classes.
+    pub(super) fn sizes(&self) -> impl Iterator<Item = Coming> + '_ {
+        self.inserted.grading.sizes().map(|(material, radius)| {
+            let clump = self.inserted.clump.map(|c| (c.shape, 2.0 * radius / c.size));
+            Coming { material, radius, clump }
+        })
     }
 
     /// Whether it comes through a place that another one comes through, at times when both are open or grains of the other are still on their way through it.
@@ -207,6 +225,30 @@ impl Feed {
             // Rounded up to the end.
             (whole, rest) = (0.0, 0.0);
         }
+    }
+
+    /// Key, value and why, where it closes before its mass or number has come in.
+    pub(super) fn falls_short(&self) -> Option<(&'static str, String, String)> {
+        let (mass, _) = self.inserted.grading.mean();
+        let open = self.windows.until() - self.windows.from();
+        let (rate, written) = match self.rate {
+            Rate::Mass(rate) => (rate / mass, format!("{} kg/s", Shown(rate))),
+            Rate::Count(rate) => (rate, format!("{} 1/s", Shown(rate))),
+        };
+        // The last may be half in time, and the first comes at once.
+        let (comes, asked) = (rate * open, self.total.expected(mass));
+        let told = |key, shown: &dyn Fn(f64) -> String| {
+            let (value, part, open) = (shown(asked), shown(comes), Shown(open));
+            (
+                key,
+                value,
+                format!("does not come in: at {written} {part} are in when it closes after {open} s"),
+            )
+        };
+        (comes + 1.0 < asked && asked.is_finite()).then(|| match self.total.is_mass() {
+            true => told("mass", &|n| format!("{} kg", Shown(n * mass))),
+            false => told("count", &|n| format!("{}", n.ceil())),
+        })
     }
 
     /// Particles that come until a time [s] since t = 0; members of clumps count one by one.

@@ -132,6 +132,11 @@ impl Grading {
         Diameter { low, high }
     }
 
+    /// Material and radius [m] of the smallest and of the largest grain of each class.
+    pub(super) fn sizes(&self) -> impl Iterator<Item = (u16, f64)> + '_ {
+        self.classes.iter().flat_map(|c| [c.range.low, c.range.high].map(|d| (c.material, d / 2.0)))
+    }
+
     /// Materials, each once.
     pub(super) fn materials(&self) -> Vec<u16> {
         let mut all: Vec<u16> = self.classes.iter().map(|c| c.material).collect();

@@ -1,12 +1,12 @@
 //! Foretells from the height of the drop whether a first impact is deeper than the overlap guard allows.
 //!
-//! Grains fall from where they are, or come in, straight down to the wall below them: v² = v₀² + 2 g h. Later impacts, off other walls and
-//! onto grains, are not foretold.
+//! Grains fall from where they are, or come in, straight down until they touch the wall below them: v² = v₀² + 2 g h, of which the share along
+//! the wall's normal is stopped. Later impacts, off other walls and onto grains, are not foretold.
 
 use super::Insertion;
 use crate::advice::of_stiffness;
-use dem::deep_impact;
-use dem::setup::{Body, Particle, Setup, Wall, WallShape};
+use dem::setup::{Body, ClumpShape, Setup, Wall, WallShape, Zone};
+use dem::{Impacting, deep_impact, mass};
 use geom::{Shown, Vec3};
 
 /// Grains that are followed: those that are highest, and as many others.
@@ -15,9 +15,22 @@ const FOLLOWED: usize = 32;
 const LOOKED_AT: usize = 4_000_000;
 
 /// A grain, or one that will come in.
+#[derive(Clone, Copy)]
 struct Start {
     position: Vec3,
     velocity: Vec3,
+    /// How far below its position it touches [m].
+    reach: f64,
+    grain: Impacting,
+}
+
+/// Where a grain meets a wall.
+struct Hit<'a> {
+    /// How far it has fallen [m].
+    height: f64,
+    /// Share of its speed that is along the normal there [–].
+    along: f64,
+    wall: &'a Wall,
 }
 
 /// A warning for the deepest impact, where the guard would stop the run.
@@ -26,47 +39,72 @@ pub(super) fn warning(setup: &Setup, insertions: &[Insertion]) -> Option<String>
     let parts: usize = setup.walls.iter().map(parts).sum();
     let starts = starts(setup, insertions, &down);
     let most = (LOOKED_AT / parts.max(1)).clamp(1, starts.len().max(1));
-    let mut worst: Option<(f64, String)> = None;
-    for start in starts.iter().step_by(starts.len().div_ceil(most).max(1)) {
-        let below = |wall: &&Wall| Some((fall(wall, &start.position, &down)?, (*wall).clone()));
-        let hit = setup
-            .walls
-            .iter()
-            .filter(|w| !w.moves())
-            .filter_map(|w| below(&w))
-            .min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((height, wall)) = hit else { continue };
+    let impacts = starts.iter().step_by(starts.len().div_ceil(most).max(1)).filter_map(|start| {
+        let walls = setup.walls.iter().filter(|w| !w.moves());
+        let hits = walls.filter_map(|wall| fall(wall, start, &down));
+        let hit = hits.min_by(|a, b| a.height.total_cmp(&b.height))?;
+        if leaves(setup, start, &(down * hit.height)) {
+            return None;
+        }
         let along = start.velocity.dot(&down);
         // Local damping takes its share of the weight of what falls.
         let pull = setup.gravity.norm() * (1.0 - setup.local_damping.unwrap_or(0.0));
-        let speed = (along * along + 2.0 * pull * height).sqrt();
-        let Some(impact) = deep_impact(setup, &wall, speed) else { continue };
-        if worst.as_ref().is_none_or(|w| impact.share > w.0) {
-            let (share, limit) = (100.0 * impact.share, 100.0 * setup.guards.overlap);
-            let text = format!(
-                "grains of radius {} m fall {height:.3} m onto wall '{}' and would overlap it by {share:.0} % of their radius, where guards.overlap \
-                 ({limit:.0} %) stops the run: stiffen the material{}, or let them fall less deep",
-                Shown(impact.radius),
-                wall.name,
-                of_stiffness(Some(&impact.stiffer))
-            );
-            worst = Some((impact.share, text));
-        }
-    }
-    worst.map(|(_, text)| text)
+        let speed = hit.along * (along * along + 2.0 * pull * hit.height).sqrt();
+        Some((deep_impact(setup, hit.wall, &start.grain, speed)?, hit))
+    });
+    let (impact, hit) = impacts.max_by(|a, b| a.0.share.total_cmp(&b.0.share))?;
+    let (share, limit) = (100.0 * impact.share, 100.0 * setup.guards.overlap);
+    Some(format!(
+        "grains of radius {} m fall {:.3} m onto wall '{}' and would overlap it by {share:.0} % of their radius, where guards.overlap \
+         ({limit:.0} %) stops the run: stiffen the material{}, or let them fall less deep",
+        Shown(impact.radius),
+        hit.height,
+        hit.wall.name,
+        of_stiffness(Some(&impact.stiffer))
+    ))
 }
 
-/// Where grains start: the highest, others evenly among the rest, and the middle of each insertion.
+/// Whether a grain that falls this way is removed at the end of an outlet's zone before it is there.
+fn leaves(setup: &Setup, start: &Start, way: &Vec3) -> bool {
+    let past = |zone: &Zone, at: &Vec3| zone.past(at, start.grain.radius) > zone.length;
+    let meets = |zone: &&Zone| !past(zone, &start.position) && past(zone, &(start.position + way));
+    setup.outlets.iter().any(|zone| meets(&zone))
+}
+
+/// Where grains start: the highest, others evenly among the rest, and what each insertion brings in the middle of where it becomes free.
 fn starts(setup: &Setup, insertions: &[Insertion], down: &Vec3) -> Vec<Start> {
-    let grain = |p: &Particle| Start { position: p.position, velocity: p.velocity };
-    let clump = |b: &Body| Start { position: b.position, velocity: b.velocity };
-    let coming = insertions.iter().flat_map(|i| &i.feeds).map(|feed| {
+    let density = |material: u16| setup.materials[material as usize].density;
+    let sphere = |material: u16, radius: f64, position: Vec3, velocity: Vec3| Start {
+        position,
+        velocity,
+        reach: radius,
+        grain: Impacting { material, radius, mass: mass(radius, density(material)) },
+    };
+    let clump = |shape: &ClumpShape, scale: f64| Impacting {
+        material: shape.material,
+        radius: shape.radii().1 * scale,
+        mass: shape.mass(scale, density(shape.material)),
+    };
+    let body = |b: &Body| {
+        let shape = &setup.clumps.shapes[b.shape as usize];
+        let below = |(centre, radius): (Vec3, f64)| (centre - b.position).dot(down) + radius;
+        let reach = shape.spheres_at(b.position, &b.orientation, b.scale).map(below).fold(0.0, f64::max);
+        Start { position: b.position, velocity: b.velocity, reach, grain: clump(shape, b.scale) }
+    };
+    let coming = insertions.iter().flat_map(|i| &i.feeds).flat_map(|feed| {
         let (position, velocity) = feed.leaves();
-        Start { position, velocity }
+        feed.sizes().map(move |coming| {
+            let start = sphere(coming.material, coming.radius, position, velocity);
+            let Some((shape, scale)) = coming.clump else { return start };
+            let shape = &setup.clumps.shapes[shape as usize];
+            // Turned at random: the sphere that touches first may be the next to the middle.
+            Start { reach: 0.0, grain: clump(shape, scale), ..start }
+        })
     });
     let (particles, placed) = (&setup.particles, &setup.clumps.placed);
-    let all = some(particles, |p| p.position.dot(down)).map(grain);
-    all.chain(some(placed, |b| b.position.dot(down)).map(clump)).chain(coming).collect()
+    let free = some(particles, |p| p.position.dot(down));
+    let all = free.map(|p| sphere(p.material, p.radius, p.position, p.velocity));
+    all.chain(some(placed, |b| b.position.dot(down)).map(body)).chain(coming).collect()
 }
 
 /// The lowest by a key, and as many others evenly among the rest.
@@ -89,29 +127,38 @@ fn parts(wall: &Wall) -> usize {
     }
 }
 
-/// How far a point falls until it meets the wall [m].
-fn fall(wall: &Wall, from: &Vec3, down: &Vec3) -> Option<f64> {
+/// Where a grain first meets the wall on its way down.
+fn fall<'a>(wall: &'a Wall, start: &Start, down: &Vec3) -> Option<Hit<'a>> {
+    let (from, reach) = (&start.position, start.reach);
+    let hit = |height: f64, along: f64| Hit { height: height.max(0.0), along, wall };
+    // A sphere meets a face that lies aslant before its centre is so far above it.
+    let face = |height: f64, along: f64| hit(height - reach / along, along);
     match &wall.shape {
         WallShape::Plane(plane) => {
             let toward = -plane.normal.dot(down);
             let height = plane.signed_distance(from) / toward;
-            (toward > 0.0 && height >= 0.0).then_some(height)
+            (toward > 0.0 && height >= 0.0).then(|| face(height, toward))
         }
         WallShape::Mesh(mesh) => {
             let corner = |v: u32| mesh.vertices.get(v as usize);
-            let face = |f: &[u32; 3]| Some([corner(f[0])?, corner(f[1])?, corner(f[2])?]);
-            let heights = mesh.faces.iter().filter_map(|f| through(face(f)?, from, down));
-            heights.min_by(f64::total_cmp)
+            let corners = |f: &[u32; 3]| Some([corner(f[0])?, corner(f[1])?, corner(f[2])?]);
+            let hits = mesh.faces.iter().filter_map(|f| {
+                let [a, b, c] = corners(f)?;
+                let height = through([a, b, c], from, down)?;
+                let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
+                Some(face(height, normal.dot(down).abs()))
+            });
+            hits.min_by(|a, b| a.height.total_cmp(&b.height))
         }
         WallShape::Spheres(spheres) => {
-            let height = |(centre, radius): &(Vec3, f64)| {
-                let to = centre - from;
+            let hits = spheres.iter().filter_map(|(centre, radius)| {
+                let (to, apart) = (centre - from, radius + reach);
                 let along = to.dot(down);
-                let aside = (to - down * along).norm_squared();
-                let depth = radius * radius - aside;
-                (depth > 0.0 && along > 0.0).then(|| (along - depth.sqrt()).max(0.0))
-            };
-            spheres.iter().filter_map(height).min_by(f64::total_cmp)
+                let depth = apart * apart - (to - down * along).norm_squared();
+                let above = depth.sqrt();
+                (depth > 0.0 && along > 0.0).then(|| hit(along - above, above / apart))
+            });
+            hits.min_by(|a, b| a.height.total_cmp(&b.height))
         }
     }
 }

@@ -224,6 +224,21 @@ mod tests {
             // The first comes at once.
             assert!((count - due).abs() <= 1.0, "{count} of {due}: {until} of {repeat} s");
         }
+        // What ends by itself is open for a period at most.
+        for (keys, each, short) in
+            [("rate = 0.8\nmass = 0.2", 0.2, None), ("rate = 0.8\nmass = 3", 1.6, Some("mass"))]
+        {
+            let keys = format!("velocity = [0, 0, -1]\n{keys}\nrepeat = 2\ntimes = 3");
+            let mut found = several(&[&keys]).unwrap();
+            assert_eq!(found[0].feeds[0].falls_short().map(|f| f.0), short, "{keys}");
+            let all: Vec<Entry> = std::iter::from_fn(|| found[0].next_entry().unwrap()).collect();
+            for k in 0..3 {
+                let from = 2.0 * f64::from(k);
+                let come = all.iter().filter(|e| (from..from + 2.0).contains(&e.time));
+                let mass: f64 = come.map(|e| 1000.0 * volume(e.particle.radius)).sum();
+                assert!((mass - each).abs() <= 1000.0 * volume(0.02), "{keys}, time {k}: {mass} kg");
+            }
+        }
         let wrong = [
             ("until = 1\nrepeat = 0.5", "insert.0.repeat = 0.5 s: is shorter than the 1 s"),
             ("repeat = 2", "repeats what never ends; add insert.0.until"),

@@ -23,6 +23,12 @@ impl PlanBuilder<'_> {
             let inserted = self.inserted(i, entry)?;
             let feed = self.feed(i, entry, shape, inserted, first_id)?;
             self.in_front_of_walls(&feed, &format!("insert.{i}.shape"), &entry.shape)?;
+            let short = feed.falls_short().map(|(key, value, why)| {
+                let later = if entry.until.is_some() { "a later until" } else { "a longer repeat" };
+                let cure = &format!("give a higher rate, or {later}");
+                self.check.wrong(&format!("insert.{i}.{key}"), value, &why, cure).to_string()
+            });
+            self.warnings.extend(short);
             first_id = first_id.saturating_add(IDS);
             self.inlets.push(feed.section.zone());
             self.join(i, feed)?;

@@ -23,6 +23,11 @@ impl Total {
         self.count.is_none_or(|most| count < most) && self.mass.is_none_or(|most| mass + next() / 2.0 <= most)
     }
 
+    /// Whether it ends after a mass.
+    pub(super) fn is_mass(&self) -> bool {
+        self.mass.is_some()
+    }
+
     /// Begins again.
     pub(super) fn begin(&mut self) {
         self.inserted = (0, 0.0);

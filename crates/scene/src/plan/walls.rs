@@ -256,7 +256,7 @@ fn motion(entry: &Motion) -> setup::Motion {
         motion.swing = Vec3::from(s.about).normalize() * s.amplitude;
         (motion.swing_frequency, motion.through) = (s.frequency, Vec3::from(s.through));
     }
-    (motion.from, motion.until) = (entry.from, entry.until.unwrap_or(f64::INFINITY));
+    (motion.from, motion.until) = (entry.from, entry.ends().unwrap_or(f64::INFINITY));
     motion.ramp = entry.ramp;
     motion.period = entry.repeat.unwrap_or(f64::INFINITY);
     motion.velocity = Vec3::from(entry.translate.unwrap_or_default());

@@ -33,7 +33,7 @@ impl Windows {
             None => 1.0,
             Some(_) => entry.times.map_or(f64::INFINITY, |n| n as f64),
         };
-        Windows { from: entry.from, until: entry.until.unwrap_or(f64::INFINITY), period, times, past: 0.0 }
+        Windows { from: entry.from, until: entry.ends().unwrap_or(f64::INFINITY), period, times, past: 0.0 }
     }
 
     fn shift(&self, k: f64) -> f64 {
