@@ -36,6 +36,29 @@ fn a_file_is_the_same_under_its_name_and_as_stdout() {
     }
 }
 
+/// A run that ends with the record of its inlet lacks nothing that crosses the plane, however it comes in; one that goes on does, and says from when.
+#[test]
+fn a_run_that_ends_with_the_record_of_its_inlet_is_not_warned_of_it() {
+    let plant = format!("{}{ABOVE}", SINTER.toml());
+    let plant = plant.replace("young = 5e7", "young = 5e5").replace("mass = 0.15", "count = 60");
+    let folder = folder(&[("plant.toml", plant)]);
+    let f = folder.path();
+    for motion in ["constant", "ballistic", "recorded"] {
+        for keep in ["upstream", "downstream"] {
+            let args =
+                ["plant.toml", "--at", AT, "--motion", motion, "--keep", keep, "-o", &format!("{keep}.toml")];
+            succeed(f, "stage-split", &args);
+        }
+        done(f, "dem-run upstream.toml --until 0.1 -q -o up.mcap");
+        done(f, "stage-replay up.mcap --keep-times -q -o in.mcap");
+        for (until, warned) in [("0.1", false), ("0.102", true)] {
+            let said = done(f, &format!("dem-run downstream.toml in.mcap --until {until} -o down.mcap"));
+            let told = said.contains("inlet.0: the record ends at t = 0.1 s while grains still came in");
+            assert_eq!(told, warned, "{motion}, {until}: {said}");
+        }
+    }
+}
+
 /// A record that ends early gives a warning in the output, and so does a scene whose numbers look like another unit.
 #[test]
 fn a_run_is_the_same_for_an_inlet_and_a_scene_with_a_name_and_for_stdin() {

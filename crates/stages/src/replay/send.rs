@@ -24,10 +24,10 @@ impl<W: Write> Replayer<'_, W> {
         self.start.map_or(f64::NEG_INFINITY, |start| self.reached() - start)
     }
 
-    /// Writes the last watermark: the end of the record.
+    /// Writes the last watermark: the end of the record. What would have been generated before it and crossed after it is not known and never comes.
     pub(super) fn end(&mut self) -> Result<(), StageError> {
         let later = self.done.period.map_or(0.0, |period| period * f64::from(self.what.repeat.max(1) - 1));
-        let end = self.read_until() + later - self.generation.lead();
+        let end = self.read_until() + later;
         self.watermark(end.max(self.done.last))
     }
 
