@@ -1,13 +1,15 @@
 //! Builds a wall: neighbours, radii, placement, leak check.
 
 use crate::bent;
+use crate::bulge::{self, Bulges};
 use crate::deep::{self, DeepDents};
 use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
 use crate::sheets::Sheets;
 use crate::solve::{Changed, ChangedPair, Changes};
 use crate::warnings::{self, Built};
 use crate::{
-    Placement, Radius, Regions, Representative, WallError, WallSettings, equation, leak, normals, solve,
+    Placement, Radius, Regions, Representative, WallError, WallSettings, equation, facing, leak, normals,
+    solve,
 };
 use geom::Vec3;
 use geom::star::{Stars, stars};
@@ -65,6 +67,8 @@ pub struct WallReport {
     pub gaps_up_to: f64,
     /// Where two sheets of the surface are closer than the spacing; `None` when nowhere.
     pub sheets: Option<Sheets>,
+    /// Where spheres on the points' other side stick out; `None` where the centres are on the points, and when nowhere.
+    pub bulges: Option<Bulges>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -113,6 +117,11 @@ pub fn build(
         leaks: 0,
         gaps_up_to: SQUARE * typical,
         sheets: None,
+        bulges: if settings.placement == Placement::Surface && !settings.of_drawing {
+            bulge::find(&cells.points, &centres, &radii, spacing)
+        } else {
+            None
+        },
         warnings: Vec::new(),
     };
     warnings::judge(
@@ -280,6 +289,9 @@ fn place(
     let seen = (!settings.seen_from.is_empty()).then(|| normals::Flow::SeenFrom(&settings.seen_from));
     let flow = settings.flow_at.map(normals::Flow::At).or(towards).or(seen).ok_or(WallError::NoFacing)?;
     let normals = normals::oriented(points, &stars.normals, pairs, flow);
+    if let normals::Flow::Towards(facing) = flow {
+        facing::check(points, &normals, &facing)?;
+    }
     Ok(points.iter().zip(&normals).zip(radii).map(|((p, n), r)| p - n * *r).collect())
 }
 

@@ -6,9 +6,11 @@
 pub mod attributes;
 mod bent;
 mod build;
+pub mod bulge;
 pub mod deep;
 pub mod drawn;
 pub mod equation;
+mod facing;
 pub mod leak;
 pub mod normals;
 pub mod pairs;
@@ -138,6 +140,16 @@ pub enum WallError {
          flow, --flow-at x,y,z"
     )]
     NoFacing,
+    #[error(
+        "--facing cannot tell the side of this surface: {share:.0} % of what lies most squarely to it faces away, as at ({:.4}, {:.4}, {:.4}) m, as it \
+         does in a pipe or around a box; give a position in the flow, --flow-at x,y,z", at[0], at[1], at[2]
+    )]
+    FacesBothWays { share: f64, at: [f64; 3] },
+    #[error(
+        "--facing cannot tell the side of this surface, which lies along it (within {angle:.0} degrees): give a direction out of the surface, or a \
+         position in the flow, --flow-at x,y,z"
+    )]
+    FacesAside { angle: f64 },
     #[error("facing ({x}, {y}, {z}): has no direction")]
     BadFacing { x: f64, y: f64, z: f64 },
     #[error("smallest particle {0} m: must be a positive diameter")]

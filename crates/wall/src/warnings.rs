@@ -1,7 +1,9 @@
 //! What a wall that was built leaves to be wished: leaks, sheets too close, sizes that do not fit the particles.
 
 use crate::build::{ROUNDED, WallReport, representative};
+use crate::bulge::Bulges;
 use crate::deep::{DEEP, DeepDents};
+
 use crate::sheets::{self, Sheets};
 use crate::{Radius, Representative, WallError, WallSettings, leak};
 use geom::star::Stars;
@@ -31,6 +33,9 @@ pub(crate) fn judge(
     if let Some(sheets) = sheets::closer_than(built.points, spacing) {
         report.warnings.push(two_sheets(&sheets, spacing));
         report.sheets = Some(sheets);
+    }
+    if let Some(bulges) = &report.bulges {
+        report.warnings.push(sticking_out(bulges));
     }
     if let Some(deep) = &report.deep_dents {
         report.warnings.push(too_deep(deep, spacing));
@@ -100,6 +105,17 @@ fn too_deep(deep: &DeepDents, spacing: f64) -> String {
         Shown(deep.asked),
         Shown(deep.distance),
         Shown(spacing)
+    )
+}
+
+fn sticking_out(bulges: &Bulges) -> String {
+    let [x, y, z] = bulges.at.map(|c| format!("{c:.4}"));
+    format!(
+        "over {:.0} % of the surface spheres of other points stick out, by up to {} m at ({x}, {y}, {z}) m: there it bends outwards more tightly than \
+         spheres of radius {} m, or is thinner than they are; make them smaller, by a smaller spacing or more roughness",
+        100.0 * bulges.share,
+        Shown(bulges.depth),
+        Shown(bulges.radius)
     )
 }
 

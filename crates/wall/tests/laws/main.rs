@@ -3,6 +3,7 @@
 mod gaps;
 mod radii;
 mod regions;
+mod sides;
 
 use geom::Vec3;
 use record::MaterialRecord;
