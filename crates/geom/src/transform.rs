@@ -159,6 +159,13 @@ impl Transform {
         self.matrix * at + self.shift
     }
 
+    /// What takes points back to where they were.
+    pub fn inverse(&self) -> Transform {
+        // A rotation times a factor always has one.
+        let matrix = self.matrix.try_inverse().unwrap_or_else(Matrix3::identity);
+        Transform { matrix, shift: -(matrix * self.shift), turn: self.turn.transpose(), off: self.off }
+    }
+
     /// How a direction is turned; its length stays.
     pub fn direction(&self, along: &Vec3) -> Vec3 {
         self.turn * along

@@ -6,9 +6,10 @@ use crate::observer::SLACK;
 use crate::periodic::PeriodicBox;
 use crate::settling::Settled;
 use crate::{Bonds, MeasureError, WallForces, table::Columns};
-use geom::{Plane, Shape, Vec3};
+use geom::{Motion, Plane, Shape, Transform, Vec3};
+use record::WallRecord;
 use record::column::{POSITION, RADIUS, WALL};
-use record::metadata::{MATERIALS, OUTLETS, SCENE, TIME, WALLS_END};
+use record::metadata::{MATERIALS, OUTLETS, PLACES, SCENE, TIME, WALLS_END};
 use record::topic::{
     BODIES, BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES,
     WALLS,
@@ -27,6 +28,8 @@ pub struct WallSpheres {
     pub radius: Vec<f64>,
     /// Index of the wall of each.
     pub wall: Vec<u64>,
+    /// When they are there [s].
+    pub time: f64,
 }
 
 /// The energy ledger at one time.
@@ -100,6 +103,10 @@ pub struct Run {
     pub periodic: PeriodicBox,
     /// Names of the walls.
     pub walls: Vec<String>,
+    /// Motions of the walls, without those of servos.
+    pub motions: Vec<Motion>,
+    /// By index of a wall: from where its file has a point to where it is at t = 0.
+    pub places: BTreeMap<usize, Transform>,
     /// Its wall spheres.
     pub spheres: WallSpheres,
     /// Changes whenever `spheres` does.
@@ -178,7 +185,7 @@ impl Run {
                 let columns = Columns { topic: WALLS, time, table: &table };
                 let (position, radius) = (columns.vectors(POSITION)?, columns.positive(RADIUS)?);
                 let wall = columns.or_zero(WALL)?.into_iter().map(|w| w as u64).collect();
-                self.spheres = WallSpheres { position, radius, wall };
+                self.spheres = WallSpheres { position, radius, wall, time };
                 self.spheres_seen += 1;
                 None
             }
@@ -198,6 +205,11 @@ impl Run {
             }
             TIME => self.step = map.get("dt").and_then(|dt| dt.parse().ok()).unwrap_or(0.0),
             WALLS_END => self.walls_end = walls_end(map),
+            PLACES => {
+                let place =
+                    |(k, text): (&String, &String)| Some((k.parse().ok()?, Transform::parse(text).ok()?));
+                self.places = map.iter().filter_map(place).collect();
+            }
             OUTLETS => self.outlets = all.iter().filter_map(plane).collect(),
             SCENE => {
                 let text = map.get("toml").map_or("", String::as_str);
@@ -228,6 +240,21 @@ impl Run {
         let walls: Value = serde_json::from_slice(data).unwrap_or_default();
         let name = |(k, w): (usize, &Value)| w["name"].as_str().map_or(k.to_string(), str::to_owned);
         self.walls = walls.as_array().into_iter().flatten().enumerate().map(name).collect();
+        self.motions = WallRecord::read_all(data).unwrap_or_default().into_iter().map(|w| w.motion).collect();
+    }
+
+    /// Where the file of each wall sphere has it, and its radius there [m]: without the motion of the wall so far, and where it was put. What a servo has
+    /// moved stays.
+    pub fn spheres_of_files(&self) -> Vec<(Vec3, f64)> {
+        let WallSpheres { position, radius, wall, time } = &self.spheres;
+        let place = |k: usize| {
+            let (wall, at) = (wall[k] as usize, position[k]);
+            let moved = self.motions.get(wall).filter(|motion| motion.moves());
+            let home = moved.map_or(at, |motion| motion.pose(*time).home(&at));
+            let Some(back) = self.places.get(&wall).map(Transform::inverse) else { return (home, radius[k]) };
+            (back.point(&home), radius[k] * back.factor().unwrap_or(1.0))
+        };
+        (0..position.len()).map(place).collect()
     }
 
     /// Whether a time lies between two [s], these included. What is due at a time is written at the step nearest to it, so half a step more counts.

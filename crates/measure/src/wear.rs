@@ -2,8 +2,8 @@
 //!
 //! Sliding work W = Σ |F_t · slip| is what Archard's law (1953, J. Appl. Phys. 24, DOI 10.1063/1.1721448) turns into a
 //! worn volume, k W / (μ H). A contact belongs to the wall sphere whose surface is nearest to its point, wherever the
-//! sphere is at that time, or to the cube of space it lies in. A sphere is listed where it was in the first frame that is measured, so that the map of a
-//! wall that moves is one of its body; the area of a cube is taken as the square of its side,
+//! sphere is at that time, or to the cube of space it lies in. A sphere is listed where the file of its wall has it, so that the map of a wall that moves,
+//! or was put elsewhere, is one of its body; the area of a cube is taken as the square of its side,
 //! which is that of a flat wall along a face of it.
 
 use crate::cells::cell_of;
@@ -47,8 +47,8 @@ pub struct Wear {
     by_sphere: BTreeMap<usize, WallLoad>,
     by_cell: BTreeMap<[i64; 3], WallLoad>,
     near: Option<NearSpheres>,
-    /// Wall spheres as the run began with them [m].
-    home: Vec<Vec3>,
+    /// Wall spheres as their files have them, and their radii there [m].
+    home: Vec<(Vec3, f64)>,
     frames: u64,
     contact_frames: u64,
     elsewhere: u64,
@@ -157,7 +157,7 @@ impl Observer for Wear {
 
     fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
         if self.home.is_empty() {
-            self.home.clone_from(&run.spheres.position);
+            self.home = run.spheres_of_files();
         }
         let RunMessage::Contacts(contacts) = message else { return Ok(()) };
         self.contact_frames += 1;
@@ -175,7 +175,7 @@ impl Observer for Wear {
         Ok(())
     }
 
-    fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+    fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
         if self.contact_frames == 0 {
             return Err(NO_CONTACTS);
         }
@@ -183,7 +183,7 @@ impl Observer for Wear {
         let centre = |key: &[i64; 3]| Vec3::from(key.map(|k| (k as f64 + 0.5) * side));
         rows.extend(self.by_cell.iter().map(|(key, b)| self.row(centre(key), side, side * side, b)));
         let spheres = if self.cell.is_none() { &self.home[..] } else { &[] };
-        for (k, (position, radius)) in spheres.iter().zip(&run.spheres.radius).enumerate() {
+        for (k, (position, radius)) in spheres.iter().enumerate() {
             let load = self.by_sphere.get(&k).copied().unwrap_or_default();
             // What a sphere stands for of a wall is not known here.
             rows.push(self.row(*position, *radius, f64::NAN, &load));

@@ -8,6 +8,8 @@ pub const MATERIALS: &str = "materials";
 pub const TIME: &str = "time";
 /// How far along gravity, `down` [–], any wall of a run reaches, `depth` [m]; only where grains may fall past all of them.
 pub const WALLS_END: &str = "walls_end";
+/// By index of a wall of spheres that is put elsewhere than its file has it, or scaled: the 16 numbers that take the file's points there, row by row.
+pub const PLACES: &str = "places";
 /// Radii of all particles, see [`crate::Sizes`].
 pub const SIZES: &str = "sizes";
 /// Key of [`SIZES`] that is there when all particles are members of clumps.

@@ -19,7 +19,7 @@ use stream::mcap::Writer;
 
 impl<W: Write> Run<W> {
     pub(crate) fn start(scene: &Scene, plan: Plan, out: W, settings: Settings<W>) -> Result<Run<W>> {
-        let Plan { mut setup, step, insertions, inlets, warnings, inputs, sizes, below } = plan;
+        let Plan { mut setup, step, insertions, inlets, warnings, inputs, sizes, places, below } = plan;
         let mut supply = Supply::new(inlets, insertions)?;
         if let Some(saved) = &settings.resume {
             saved.fits(&scene.text.toml, &inputs)?;
@@ -51,6 +51,9 @@ impl<W: Write> Run<W> {
             let end =
                 [("down", down), ("depth", depth.to_string())].map(|(key, text)| (key.to_owned(), text));
             writer.metadata(metadata::WALLS_END, Map::from(end))?;
+        }
+        if !places.is_empty() {
+            writer.metadata(metadata::PLACES, places)?;
         }
         let first = sim.steps();
         let mut run = Run {

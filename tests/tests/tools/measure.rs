@@ -9,6 +9,7 @@ mod made;
 mod refused;
 mod specimen;
 mod wall_forces;
+mod worn;
 
 use geom::Vec3;
 use grainpipe_tests::tools::{Done, line, program, succeed, tool};

@@ -41,9 +41,14 @@ pub struct Placement {
 }
 
 impl Placement {
+    /// Where it is drawn.
+    pub fn still() -> Placement {
+        Placement { turn: UnitQuaternion::identity(), shift: Vec3::zeros() }
+    }
+
     /// Of steps; `None` where there is none.
     pub fn of(steps: &[Place]) -> Option<Placement> {
-        let still = Placement { turn: UnitQuaternion::identity(), shift: Vec3::zeros() };
+        let still = Placement::still();
         let then = |all: Placement, step: &Place| {
             let (turn, mut shift) = step.rotate.as_ref().map_or((still.turn, Vec3::zeros()), |r| {
                 let turn =
@@ -60,6 +65,17 @@ impl Placement {
     /// Where a point is.
     pub fn point(&self, at: &Vec3) -> Vec3 {
         self.turn * at + self.shift
+    }
+
+    /// The matrix that takes points there, after lengths have been multiplied by `factor`: 16 numbers, row by row.
+    pub fn rows(&self, factor: f64) -> [f64; 16] {
+        let (turn, s) = (self.turn.to_rotation_matrix(), &self.shift);
+        let m = turn.matrix() * factor;
+        let row = |k: usize| [m[(k, 0)], m[(k, 1)], m[(k, 2)], s[k]];
+        let mut all = [0.0; 16];
+        (0..3).for_each(|k| all[4 * k..4 * k + 4].copy_from_slice(&row(k)));
+        all[15] = 1.0;
+        all
     }
 
     /// How a direction or a velocity is turned.

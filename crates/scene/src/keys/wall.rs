@@ -114,6 +114,12 @@ impl Wall {
         Placement::of(self.place.as_deref()?)
     }
 
+    /// The matrix from where its file has a point to where it is, row by row; `None` where both are one.
+    pub fn of_file(&self) -> Option<[f64; 16]> {
+        let (place, factor) = (self.placement(), self.length_factor());
+        (place.is_some() || factor != 1.0).then(|| place.unwrap_or_else(Placement::still).rows(factor))
+    }
+
     /// A surface of it that is drawn like this, where it is put.
     pub fn put(&self, shape: WallShape) -> WallShape {
         match self.placement() {

@@ -11,7 +11,7 @@ use crate::keys::{self, SceneKeys};
 use crate::scene::Scene;
 use dem::setup::{self, EntryBonds, Particle, Zone};
 use geom::Shape;
-use record::{MaterialRecord, Sizes};
+use record::{Map, MaterialRecord, Sizes};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -85,6 +85,8 @@ pub(super) struct PlanBuilder<'a> {
     pub streams: Vec<PlannedInlet>,
     pub read: FilesRead,
     pub warnings: Vec<String>,
+    /// [`super::Plan::places`].
+    pub places: Map,
     /// Role and SHA-256 of what was read.
     pub inputs: Vec<(String, String)>,
     /// Hears how far a fill is.
@@ -120,6 +122,7 @@ impl<'a> PlanBuilder<'a> {
             streams: Vec::new(),
             read: FilesRead::default(),
             warnings: Vec::new(),
+            places: Map::new(),
             hear: &|_| (),
             inputs: vec![("scene".to_owned(), stream::sha256(scene.text.toml.as_bytes()))],
         }

@@ -54,7 +54,7 @@ use crate::input::{InletSource, Input, WallFile};
 use crate::scene::Scene;
 use builder::PlanBuilder;
 use dem::setup::{ClumpShape, Setup};
-use record::Sizes;
+use record::{Map, Sizes};
 
 /// Everything that a run needs.
 pub struct Plan {
@@ -72,6 +72,8 @@ pub struct Plan {
     pub inputs: Vec<(String, String)>,
     /// Radii of all particles of the run; `None` when there are none.
     pub sizes: Option<Sizes>,
+    /// The record [`record::metadata::PLACES`]: walls of spheres that are elsewhere than their file has them.
+    pub places: Map,
     /// How far walls reach along gravity, where particles can fall past them and no outlet is there to take them out.
     pub below: Option<Below>,
 }

@@ -63,9 +63,9 @@ impl PlanBuilder<'_> {
             inlets: self.inlets,
             entry_materials: self.entry_materials,
         };
-        let PlanBuilder { insertions, streams: inlets, mut warnings, inputs, .. } = self;
+        let PlanBuilder { insertions, streams: inlets, mut warnings, inputs, places, .. } = self;
         warnings.extend(impact::warning(&setup, &insertions));
-        Ok(Plan { setup, step, insertions, inlets, warnings, inputs, sizes, below })
+        Ok(Plan { setup, step, insertions, inlets, warnings, inputs, sizes, places, below })
     }
 
     /// Largest overlap before a guard stops the run, as a share of the smaller radius [–].

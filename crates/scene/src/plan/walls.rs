@@ -122,6 +122,8 @@ impl PlanBuilder<'_> {
                 }
                 let mut wall = self.wall(key, entry, name, index, entry.put(WallShape::Spheres(spheres)))?;
                 wall.surface.velocity += entry.placement().map_or(*velocity, |place| place.vector(velocity));
+                let numbers = entry.of_file().map(|rows| rows.map(|n| n.to_string()).join(" "));
+                self.places.extend(numbers.map(|numbers| (self.walls.len().to_string(), numbers)));
                 self.walls.push(wall);
             }
         }
