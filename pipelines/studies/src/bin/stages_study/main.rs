@@ -9,6 +9,7 @@
 mod cost;
 mod fidelity;
 mod kept;
+mod mouths;
 mod page;
 #[path = "../walls_study/picture.rs"]
 mod picture;
@@ -22,11 +23,11 @@ fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let (folder, file, part) = match words.as_slice() {
         [folder, file] => (folder, file, None),
-        [folder, file, part] if ["fidelity", "cost"].contains(&part.as_str()) => {
+        [folder, file, part] if ["fidelity", "mouths", "cost"].contains(&part.as_str()) => {
             (folder, file, Some(part.as_str()))
         }
         _ => {
-            eprintln!("stages_study: usage: stages_study FOLDER PAGE.md [fidelity|cost]");
+            eprintln!("stages_study: usage: stages_study FOLDER PAGE.md [fidelity|mouths|cost]");
             return ExitCode::from(2);
         }
     };
@@ -55,6 +56,10 @@ fn study(folder: &Path, file: &Path, part: Option<&str>) -> Result<(), String> {
     if part.is_none_or(|p| p == "fidelity") {
         eprintln!("stages_study: fidelity, {seeds} seeds");
         fidelity::study(folder, file, seeds)?;
+    }
+    if part.is_none_or(|p| p == "mouths") {
+        eprintln!("stages_study: mouths, {seeds} seeds");
+        mouths::study(folder, file, seeds)?;
     }
     if part.is_none_or(|p| p == "cost") {
         eprintln!("stages_study: cost");
