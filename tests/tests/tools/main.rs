@@ -37,6 +37,7 @@ mod settled_bed;
 mod sinter_box;
 mod stage_variants;
 mod stale;
+mod stamps;
 mod streams;
 mod transform;
 mod view_in_chromium;

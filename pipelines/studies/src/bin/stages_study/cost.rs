@@ -3,7 +3,7 @@
 //! The plant is the small one under a hopper that holds five times as much, of which less than a third flows out: what lies before the cut is
 //! then most of it, as in the plants that the source has in mind.
 
-use crate::page::{put, table};
+use crate::page::{SMALL, put, table};
 use crate::plant::scenes;
 use crate::shell::{Took, line, timed};
 use std::path::Path;
@@ -48,7 +48,7 @@ pub fn study(folder: &Path, page: &Path) -> Result<(), String> {
         let size = |name: &str| std::fs::metadata(folder.join(name)).map_or(0, |m| m.len());
         record = (size("up.mcap"), size("in.mcap"));
     }
-    put(folder, page, "cost", &text(upstream, &times, record))
+    put(folder, page, ("cost", SMALL), &text(upstream, &times, record))
 }
 
 /// The scene of the plant; its hopper is drawn into the folder, where its chute is to be, too.

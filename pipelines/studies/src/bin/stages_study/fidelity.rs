@@ -1,6 +1,6 @@
 //! Fidelity: the plant undivided and cut, by place of the cut, motion and length of the zone, stiffness and step.
 
-use crate::page::{put, table};
+use crate::page::{SMALL, put, table};
 use crate::picture::{Panel, draw};
 use crate::plant::{CUTS, Cut, Found, QUANTITIES, Setting, seen};
 use measure::statistics::Mean;
@@ -59,7 +59,7 @@ pub fn study(folder: &Path, page: &Path, seeds: usize) -> Result<(), String> {
         text += &section(&all, at, seeds);
     }
     pictures(&all, (folder, page), seeds)?;
-    put(folder, page, "fidelity", &text)
+    put(folder, page, ("fidelity", SMALL), &text)
 }
 
 /// What is run; `quick`: each cut and motion once, with the shortest zone.

@@ -1,7 +1,7 @@
 //! Mouths: a cone and a slot (pipelines/stages/mouth.toml), cut at the mouth and below it, with and without a settled bed, and with a
 //! lid that opens half.
 
-use crate::page::{put, table};
+use crate::page::{MOUTH, put, table};
 use crate::plant::scenes;
 use crate::shell::{line, measure, summary};
 use measure::statistics::Mean;
@@ -52,7 +52,7 @@ pub fn study(folder: &Path, page: &Path, seeds: usize) -> Result<(), String> {
             text += &format!("\n### Mouth of a {shape}, {}\n{}", case.says, section(folder, &case, seeds)?);
         }
     }
-    put(folder, page, "mouths", &text)
+    put(folder, page, ("mouths", MOUTH), &text)
 }
 
 fn section(folder: &Path, case: &Case, seeds: usize) -> Result<String, String> {
@@ -121,7 +121,7 @@ fn counted(
     std::fs::remove_dir_all(&own).map_err(|why| format!("{}: {why}", own.display()))?;
     let text = serde_json::to_vec(&found).map_err(|why| why.to_string())?;
     std::fs::write(&kept, text).map_err(|why| format!("{}: {why}", kept.display()))?;
-    Ok(found?)
+    found
 }
 
 fn run(
