@@ -8,6 +8,7 @@ mod unused;
 use examples::{EXAMPLES, FORMS};
 use files::inputs;
 use grainpipe_tests::tools::{line, program};
+use grainpipe_tests::written::note;
 use std::collections::BTreeSet;
 use std::process::Command;
 
@@ -103,8 +104,10 @@ fn every_option_has_an_example_in_each_of_its_forms() {
 #[test]
 fn every_example_runs() {
     let folder = inputs();
+    let mut printed = Vec::new();
     let wrong = |line_: &&str| {
         let done = line(folder.path(), line_);
+        printed.push(((*line_).to_owned(), done.stdout));
         (done.code != 0 || done.stderr.contains("panicked"))
             .then(|| format!("{line_}: {}: {}", done.code, done.stderr))
     };
@@ -112,6 +115,7 @@ fn every_example_runs() {
     let runs = |line: &&&str| lammps || !line.starts_with("dem-lammps");
     let wrong: Vec<String> = EXAMPLES.iter().filter(runs).filter_map(wrong).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), EXAMPLES.len(), wrong.join("\n"));
+    note("options", folder.path(), &printed);
 }
 
 #[test]
