@@ -85,13 +85,13 @@ fn far_in_front(report: &WallReport) -> Option<String> {
         true => format!(", and {} m less where it is rougher", Shown(most - least)),
         false => String::new(),
     };
-    let larger = if most > report.width { "; is it in millimetres?" } else { "" };
+    let first = if most > report.width { "; is it in millimetres? If not, give" } else { ": give" };
     let bends = match most > OF_RADIUS * radius {
         true => format!(", and a quarter of it bends with a radius below {} m", Shown(radius)),
         false => String::new(),
     };
     Some(format!(
-        "the centres of the spheres are on the points, so the wall stands {} m in front of them{step}; the cloud is {} m wide{bends}{larger}: give the flow \
+        "the centres of the spheres are on the points, so the wall stands {} m in front of them{step}; the cloud is {} m wide{bends}{first} the flow \
          side, --facing x,y,z or --flow-at x,y,z, and the wall goes through the points",
         Shown(most),
         Shown(report.width)

@@ -21,13 +21,19 @@ struct Case {
 const SETTLED: &str = "{ translate = [4, 0, 0], from = 0.35, until = 0.375 }";
 const OPEN: &str = "{ translate = [4, 0, 0], from = 0, until = 0.025 }";
 const PARTLY: &str = "{ translate = [1.6, 0, 0], from = 0.35, until = 0.375 }";
-/// Bed, lid and window.
-const BEDS: [(&str, &str, [f64; 2]); 3] = [
-    ("with a settled bed", SETTLED, [0.4, 0.5]),
-    ("open from the start", OPEN, [0.2, 0.3]),
-    ("with a settled bed and the lid half open", PARTLY, [0.45, 0.6]),
+const CONE: &str = "mouth-cone.obj";
+const SLOT: &str = "mouth-slot.obj";
+const CASES: [Case; 4] = [
+    Case { says: "a cone with a settled bed", mesh: CONE, lid: SETTLED, window: [0.4, 0.5] },
+    Case { says: "a cone that is open from the start", mesh: CONE, lid: OPEN, window: [0.2, 0.3] },
+    Case { says: "a slot with a settled bed", mesh: SLOT, lid: SETTLED, window: [0.4, 0.5] },
+    Case {
+        says: "a slot with a settled bed, the gate half open",
+        mesh: SLOT,
+        lid: PARTLY,
+        window: [0.45, 0.6],
+    },
 ];
-const SHAPES: [(&str, &str); 2] = [("cone", "mouth-cone.obj"), ("slot", "mouth-slot.obj")];
 /// Where it is cut, with the height of the plane [m]; a mean diameter is 8 mm.
 const PLACES: [(&str, f64); 2] = [("at the mouth", 0.0), ("3.5 d below", -0.028)];
 const MOTIONS: [&str; 3] = ["recorded", "ballistic", "constant"];
@@ -46,11 +52,8 @@ pub fn study(folder: &Path, page: &Path, seeds: usize) -> Result<(), String> {
         "Each line gives the mean difference from the undivided runs with the same {seeds} fills, ± its 95 % interval (Student). It is bold if the interval \
          does not include zero. \"Holds back\" is the momentum that grains behind the plane push back, over that of those that pass (the run's report).\n"
     );
-    for (shape, mesh) in SHAPES {
-        for (bed, lid, window) in BEDS {
-            let case = Case { says: bed, mesh, lid, window };
-            text += &format!("\n### Mouth of a {shape}, {}\n{}", case.says, section(folder, &case, seeds)?);
-        }
+    for case in &CASES {
+        text += &format!("\n### Mouth of {}\n{}", case.says, section(folder, case, seeds)?);
     }
     put(folder, page, ("mouths", MOUTH), &text)
 }
