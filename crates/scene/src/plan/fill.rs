@@ -59,7 +59,7 @@ impl PlanBuilder<'_> {
         };
         drop(taken);
         let places = places.map_err(|n| {
-            let mass = |grains: &[Grain]| grains.iter().map(|g| g.mass).sum::<f64>();
+            let mass = |grains: &[Grain]| grains.iter().fold(0.0, |sum, g| sum + g.mass);
             let (fits, of, count) = (mass(&grains[..n]), mass(&grains), grains.len());
             let what = self.in_the_way();
             let why =

@@ -10,6 +10,7 @@ use crate::outlet::crossing::{self, CrossingRow};
 use crate::outlet::path;
 use dem::setup::{Entry, EntryClump, Guide, Sample, ZoneMotion};
 use record::{RecordError, Watermark, metadata, topic};
+use scene::input::ZoneRecord;
 use scene::plan::PlannedInlet;
 use scene::{Result, SceneError};
 use std::collections::VecDeque;
@@ -31,6 +32,8 @@ pub struct InletStream {
     known: f64,
     /// Times that the stream has reached.
     order: Order,
+    /// When the last of the crossings that were read is at the plane [s].
+    last: f64,
     /// The last watermark that a later row, watermark or the end of the stream has not contradicted [s].
     confirmed: f64,
     /// Why the stream broke off, where what was needed of it had been read.
@@ -53,6 +56,7 @@ impl InletStream {
             made: VecDeque::new(),
             known: f64::NEG_INFINITY,
             order: Order::default(),
+            last: f64::NEG_INFINITY,
             confirmed: f64::NEG_INFINITY,
             broken: None,
         };
@@ -161,8 +165,17 @@ impl InletStream {
     pub fn ended(&self) -> Option<f64> {
         let watermark = self.order.watermark();
         // Without watermarks the last crossing is all that is known.
-        let flows = self.known == f64::INFINITY && self.order.last() > STILL_FLOWS * watermark;
-        flows.then_some(watermark.max(self.order.last()))
+        let last = self.last.max(self.order.last());
+        let flows = self.known == f64::INFINITY && last > STILL_FLOWS * watermark;
+        flows.then_some(watermark.max(last))
+    }
+
+    /// When the particle of a row is at the plane [s]: a prescribed motion brings it there.
+    fn passes(&self, row: &CrossingRow) -> f64 {
+        let Some(ZoneRecord { zone, gravity, .. }) = &self.plan.source.zone else { return row.time };
+        let (at, velocity) = (&row.particle.position, &row.particle.velocity);
+        let past = zone.past(at, row.particle.radius);
+        row.time + zone.arrives_after(past, velocity, &gravity.unwrap_or_default()).unwrap_or(0.0)
     }
 
     fn recorded(&self) -> bool {
@@ -221,6 +234,7 @@ impl InletStream {
                 for row in crossing::from_table(name, &table, materials)? {
                     self.order.take_crossing(name, row.particle.id, row.time)?;
                     announced::check(source, &row)?;
+                    self.last = self.last.max(self.passes(&row));
                     self.confirmed = self.known;
                     self.crossings.push_back(row);
                 }

@@ -33,7 +33,7 @@ const CLUMP: &str = "[[clump]]\nname = \"bar\"\nmaterial = \"ore\"\nspheres = [[
                      [[body]]\nclump = \"bar\"\nposition = [0.04, 0.05, 1]\nquaternion = [0.7071067811865476, 0, 0.7071067811865476, 0]\n";
 
 /// Larger than the way that it falls.
-const LARGE: &str = "[[fill]]\nmaterial = \"ore\"\nshape = \"box:0.01,0.01,0.06,0.09,0.09,0.14001\"\ndiameter = 0.08\ncount = 1\n";
+const LARGE: &str = "[[fill]]\nmaterial = \"ore\"\nshape = \"box:0.005,0.005,0.06,0.095,0.095,0.1401\"\ndiameter = 0.08\ncount = 1\n";
 
 /// What is foretold comes true: with 0.75 of the modulus that it names the run is stopped, with all of it the run ends.
 #[test]

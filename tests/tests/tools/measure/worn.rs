@@ -88,7 +88,7 @@ fn a_worn_sphere_is_where_its_file_has_it_wherever_the_scene_puts_and_moves_it()
         // As many spheres of the next wall are worn as of this one.
         let table = measure(&folder, &["--wear", "all", "-o", "wear.csv"]);
         assert!(table.stdout.is_empty());
-        let rough = "roughness = 0.0005\n[wear]\nrun = \"wear.csv\"\ntable = \"table.csv\"\nmeasured = \"sliding_work\"\n";
+        let rough = "roughness = 0.0005\n[wear]\nrun = \"wear.csv\"\ntable = \"table.csv\"\nmeasured = \"sliding_work\"\nfrom = [0, 0, 0]\nalong = [1, 0, 0]\n";
         std::fs::write(folder.path().join("rough.toml"), rough).unwrap();
         std::fs::write(folder.path().join("table.csv"), "w,0\n0,0.0005\n1e-12,0.001\n").unwrap();
         let made = [
