@@ -14,7 +14,7 @@ struct Damaged {
     local: Local,
     damage: Damage,
     before: &'static str,
-    /// What the function is told: the mode of one that makes lists.
+    /// Only in this mode of a function that makes lists.
     mode: Option<u32>,
     calls: u32,
 }
