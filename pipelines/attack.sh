@@ -5,4 +5,4 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 cargo build --bins --locked --quiet
 cargo build -p grainpipe-studies --bin attack --locked --quiet
-target/debug/attack "${FILES:-21000}" "${KILLS:-100}" "${SEED:-1}" docs/reliability.md
+target/debug/attack "${FILES:-24000}" "${KILLS:-100}" "${SEED:-1}" docs/reliability.md

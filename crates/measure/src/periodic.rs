@@ -41,6 +41,14 @@ impl PeriodicBox {
         })
     }
 
+    /// Whether a position [m] lies in the box; of two opposite faces on the lower one only, so that of the images of a place one does.
+    pub fn has(&self, position: &Vec3) -> bool {
+        let inside = |(period, x): (&Option<(f64, f64)>, &f64)| {
+            period.is_none_or(|(low, high)| (low..high).contains(x))
+        };
+        self.range.iter().zip(position.iter()).all(inside)
+    }
+
     /// Lowest and highest corner [m], without end along axes that are not periodic.
     pub fn corners(&self) -> (Vec3, Vec3) {
         let end = |k: usize, of: fn((f64, f64)) -> f64, open: f64| self.range[k].map_or(open, of);

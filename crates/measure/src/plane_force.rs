@@ -6,9 +6,11 @@
 //!
 //! with the force F_b on b as the run records it: the traction that a cut through the plane has to replace. F·n is above
 //! zero where grains before the plane press along its normal. In an upstream stage the grains of the zone are those
-//! behind its storage plane: they feel no force, and their force on the others is counted.
+//! behind its storage plane: they feel no force, and their force on the others is counted. In a periodic box a contact through a face counts with
+//! those images of its grains between which the plane is met in the box.
 
 use crate::observer::{NO_CONTACTS, Observer};
+use crate::periodic::PeriodicBox;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
 use crate::{Contact, Contacts, MeasureError, Partner, Run, RunMessage};
@@ -18,8 +20,10 @@ use std::collections::HashMap;
 /// Measures the force through a plane.
 pub struct PlaneForce {
     plane: Plane,
-    /// Distance of each grain of the frame from the plane [m], by id.
-    distances: HashMap<u64, f64>,
+    /// Place of each grain of the frame [m], by id.
+    places: HashMap<u64, Vec3>,
+    /// The box of the frame.
+    periodic: PeriodicBox,
     /// Along the normal and across it, of every frame [N].
     sizes: [Vec<f64>; 2],
     counts: Vec<f64>,
@@ -29,26 +33,37 @@ pub struct PlaneForce {
 impl PlaneForce {
     /// Through a plane.
     pub fn new(plane: Plane) -> PlaneForce {
-        let (distances, sizes) = (HashMap::new(), [Vec::new(), Vec::new()]);
-        PlaneForce { plane, distances, sizes, counts: Vec::new(), contact_frames: 0 }
+        let (places, sizes) = (HashMap::new(), [Vec::new(), Vec::new()]);
+        let periodic = PeriodicBox::default();
+        PlaneForce { plane, places, periodic, sizes, counts: Vec::new(), contact_frames: 0 }
     }
 
-    /// The force of a contact on the grain behind the plane [N], where its grains are on different sides.
-    fn on_behind(&self, contact: &Contact) -> Option<Vec3> {
-        let Partner::Grain(other) = contact.partner else { return None };
-        let [i, j] = [contact.grain, other].map(|id| self.distances.get(&id).map(|d| *d >= 0.0));
-        match (i?, j?) {
-            (true, false) => Some(contact.force),
-            (false, true) => Some(-contact.force),
-            _ => None,
-        }
+    /// The force of a contact on the grain behind the plane [N], once for each of its images through which the plane goes.
+    fn on_behind(&self, contact: &Contact) -> Vec<Vec3> {
+        let Partner::Grain(other) = contact.partner else { return Vec::new() };
+        let [Some(i), Some(j)] = [contact.grain, other].map(|id| self.places.get(&id)) else {
+            return Vec::new();
+        };
+        let from = *i;
+        let to = from + self.periodic.way(i, j);
+        let force = |shift: &Vec3| {
+            let [at_i, at_j] = [from + shift, to + shift].map(|p| self.plane.signed_distance(&p));
+            let meets = from + shift + (to - from) * (at_i / (at_i - at_j));
+            match (at_i >= 0.0, at_j >= 0.0) {
+                (true, false) if self.periodic.has(&meets) => Some(contact.force),
+                (false, true) if self.periodic.has(&meets) => Some(-contact.force),
+                _ => None,
+            }
+        };
+        let ends = (from.inf(&to), from.sup(&to));
+        self.periodic.shifts(ends, self.periodic.corners()).iter().filter_map(force).collect()
     }
 
     fn contacts(&mut self, contacts: &Contacts, rows: &mut Vec<Row>) {
         self.contact_frames += 1;
         let (count, force) = contacts
             .acting()
-            .filter_map(|c| self.on_behind(c))
+            .flat_map(|c| self.on_behind(c))
             .fold((0.0, Vec3::zeros()), |(count, sum), force| (count + 1.0, sum + force));
         let normal = force.dot(&self.plane.normal);
         let shear = (force - self.plane.normal * normal).norm();
@@ -75,9 +90,9 @@ impl Observer for PlaneForce {
     fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         match message {
             RunMessage::Frame(frame) => {
-                self.distances.clear();
-                let distance = frame.position.iter().map(|p| self.plane.signed_distance(p));
-                self.distances.extend(frame.id.iter().copied().zip(distance));
+                self.places.clear();
+                self.places.extend(frame.id.iter().copied().zip(frame.position.iter().copied()));
+                self.periodic = frame.periodic;
             }
             RunMessage::Contacts(contacts) => self.contacts(&contacts, rows),
             _ => {}

@@ -15,6 +15,8 @@ use thiserror::Error;
 
 /// Most pixels of a side.
 const LONGEST: u32 = 30_000;
+/// Most pixels: a photograph takes 16 bytes of memory for each of them, and no camera takes more.
+const PIXELS: u64 = 400_000_000;
 /// Most bytes of a picture in memory.
 const BYTES: u64 = 1 << 30;
 
@@ -62,6 +64,13 @@ pub enum PhotographError {
     Broken { format: &'static str, reason: String },
     #[error("has no pixels: {width} × {height}")]
     Empty { width: usize, height: usize },
+    #[error(
+        "has {width} × {height} = {} million pixels, and {} million are the most (16 bytes of memory each): export it \
+         smaller, such as 4000 × 3000",
+        u64::from(*width) * u64::from(*height) / 1_000_000,
+        PIXELS / 1_000_000
+    )]
+    Large { width: u32, height: u32 },
     #[error("cannot write PNG: {0}")]
     Png(String),
 }
@@ -180,6 +189,10 @@ fn decode(bytes: &[u8]) -> Result<DynamicImage, PhotographError> {
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
     let mut decoder = reader.into_decoder().map_err(broken)?;
+    let (width, height) = decoder.dimensions();
+    if u64::from(width) * u64::from(height) > PIXELS {
+        return Err(PhotographError::Large { width, height });
+    }
     let orientation = decoder.orientation().map_err(broken)?;
     let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
     picture.apply_orientation(orientation);
@@ -214,6 +227,28 @@ mod tests {
         assert!(words.contains("'solid x'") && words.contains("convert"), "{words}");
         let whole = png(4, 4, &[7; 16]).unwrap();
         let words = Photograph::read(&whole[..40]).unwrap_err().to_string();
+        assert!(words.contains("cannot read the PNG"), "{words}");
+    }
+
+    /// A PNG that ends after its header, of this size.
+    fn header(width: u32, height: u32) -> Vec<u8> {
+        let sum = |bytes: &[u8]| {
+            let bit = |c: u32| if c & 1 == 1 { 0xedb8_8320 ^ (c >> 1) } else { c >> 1 };
+            !bytes.iter().fold(!0, |c, b| (0..8).fold(c ^ u32::from(*b), |c, _| bit(c)))
+        };
+        let size = [width.to_be_bytes(), height.to_be_bytes()].concat();
+        let chunk = [&b"IHDR"[..], &size, &[8, 0, 0, 0, 0]].concat();
+        let sum = sum(&chunk).to_be_bytes();
+        [&b"\x89PNG\r\n\x1a\n\0\0\0\x0d"[..], &chunk, &sum, b"\0\0\0\0IDAT\x35\xaf\x06\x1e"].concat()
+    }
+
+    /// Its header says how much memory it would take.
+    #[test]
+    fn a_photograph_of_too_many_pixels_is_refused_by_its_header() {
+        let words = Photograph::read(&header(30_000, 30_000)).unwrap_err().to_string();
+        assert!(words.contains("900 million pixels, and 400 million are the most"), "{words}");
+        assert!(read_values(&header(20_001, 20_000)).is_err_and(|e| e.to_string().contains("400 million")));
+        let words = Photograph::read(&header(400, 300)).unwrap_err().to_string();
         assert!(words.contains("cannot read the PNG"), "{words}");
     }
 

@@ -23,6 +23,7 @@ mod layout;
 mod ledger_line;
 mod limits;
 mod measure;
+mod memory;
 mod outputs;
 mod photographs;
 mod pipelines;

@@ -2,6 +2,7 @@
 
 mod below_a_hopper;
 mod bonds;
+mod brute;
 mod cracks;
 mod flow;
 mod kinds;

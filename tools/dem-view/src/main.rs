@@ -14,7 +14,7 @@ use anyhow::Context;
 use args::Args;
 use cli::{Output, OutputStream, Report, Source};
 use formats::Format;
-use std::{io::Write, process::ExitCode};
+use std::process::ExitCode;
 use view::{Moment, PictureOptions, picture};
 
 fn main() -> ExitCode {
@@ -44,22 +44,23 @@ fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {
     let seen = inputs::read_all(args, &mut moment)?;
     moment.settle();
     let options = PictureOptions { time: moment.time(), ..args.picture(Format::Png) };
-    let image = picture::draw(&moment.parts(), moment.surfaces(), &options)?;
+    let image = picture::png(&moment.parts(), moment.surfaces(), &options)?;
     for (name, without) in args.doubtful(&options) {
-        if picture::draw(&moment.parts(), moment.surfaces(), &without)? == image {
+        if picture::png(&moment.parts(), moment.surfaces(), &without)? == image {
             cli::warn(&format!("{name} changes nothing in this picture: leave it out"));
         }
     }
     if args.time.is_some() && options.time.is_none() {
         cli::warn("--time changes nothing in this picture: what is drawn has no times: leave it out");
     }
-    args.warn_of_size(image.subject, [image.width, image.height]);
+    args.warn_of_size(image.subject, image.size);
     counts::warn_of_outside(image.outside, "the picture");
     let mut out: OutputStream = output.open()?;
-    out.write_all(&image.png()?).with_context(|| output.name())?;
+    image.write(&mut out).with_context(|| output.name())?;
     out.commit()?;
     let when = options.time.map_or_else(String::new, |t| format!(" at t = {t:.6} s"));
-    let (size, grains) = (format!("{} x {} pixels", image.width, image.height), moment.grains());
+    let [width, height] = image.size;
+    let (size, grains) = (format!("{width} x {height} pixels"), moment.grains());
     let summary = format!("{}: {size}{when}{}", output.name(), counts::words(grains));
     let report = Report::new(summary).with("time_s", options.time).with("layers", seen);
     Ok(report.with_all(&counts::fields(grains)))

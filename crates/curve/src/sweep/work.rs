@@ -3,6 +3,7 @@
 use super::script::{BUSY, Counter, Job, NOW};
 use crate::study::{CurveError, Work};
 use serde_json::Value;
+use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
@@ -135,6 +136,9 @@ fn uncounted(job: &Job, work: Work) -> bool {
     work == Work::Instructions && !job.file("instructions").exists()
 }
 
+/// Signals that end a run in the name of the user: HUP, INT, QUIT, TERM.
+const ENDING: [i32; 4] = [1, 2, 3, 15];
+
 /// Runs the scripts, so many at a time; `begins` and `ends` are called with each run.
 ///
 /// # Errors
@@ -148,12 +152,16 @@ pub fn run(
 ) -> Result<(), CurveError> {
     let (next, trouble) = (AtomicUsize::new(0), Mutex::new(None));
     let busy: Vec<AtomicBool> = jobs.iter().map(|_| AtomicBool::new(false)).collect();
+    let ended = AtomicBool::new(false);
     let one = || {
         // First those that no other process makes; then the others are waited for.
         loop {
             let turn = next.fetch_add(1, SeqCst);
             let (now, at) = (turn < jobs.len(), turn % jobs.len().max(1));
-            let Some(job) = jobs.get(at).filter(|_| turn < 2 * jobs.len() && !stop()) else { break };
+            let Some(job) = jobs.get(at).filter(|_| turn < 2 * jobs.len() && !stop() && !ended.load(SeqCst))
+            else {
+                break;
+            };
             if !now && !busy[at].load(SeqCst) {
                 continue;
             }
@@ -166,6 +174,10 @@ pub fn run(
                 Ok(status) if now && status.code() == Some(BUSY) => {
                     busy[at].store(true, SeqCst);
                     continue;
+                }
+                // A signal to all of them may end a run before it is noticed here.
+                Ok(status) if status.signal().is_some_and(|number| ENDING.contains(&number)) => {
+                    ended.store(true, SeqCst);
                 }
                 Ok(_) => {}
                 Err(why) => {
@@ -187,7 +199,7 @@ pub fn run(
     if let Ok(Some(trouble)) = trouble.into_inner() {
         return Err(trouble);
     }
-    if stop() {
+    if stop() || ended.load(SeqCst) {
         let (done, all) = (jobs.iter().filter(|job| finished(job)).count(), jobs.len());
         let why =
             format!("stopped by a signal: {done} of {all} runs are finished: the same command continues");

@@ -100,6 +100,8 @@ impl Contacts {
             return Err(DeviceError::Failed { device: work.device.name(), what });
         }
         work.t.slot_count = slots as u32;
+        (work.t.history_count, work.t.point_count) =
+            (self.slots.history as u32, u32::try_from(self.slots.rows()).unwrap_or(u32::MAX));
         swap(&mut self.columns, &mut self.old);
         work.t.lists.old = work.t.contacts;
         let c = &mut self.columns;

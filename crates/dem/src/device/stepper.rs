@@ -178,6 +178,19 @@ impl Stepper {
         DeviceError::Failed { device: self.device.name(), what }
     }
 
+    /// What was flagged; an error where memory of the device is damaged.
+    fn flags_are_sound(&mut self) -> Result<DeviceFlags, DeviceError> {
+        let mut flags = [DeviceFlags::default()];
+        self.flags.read(self.device.as_mut(), &mut flags)?;
+        let [flags] = flags;
+        if flags.beyond == 0 {
+            return Ok(flags);
+        }
+        let what = "a contact names a particle, a point or a slot that there is not: its memory is damaged"
+            .to_owned();
+        Err(DeviceError::Failed { device: self.device.name(), what })
+    }
+
     fn list(
         &mut self,
         model: &Model,
@@ -185,8 +198,11 @@ impl Stepper {
         lists: &NeighbourLists,
         why: Why,
     ) -> Result<(), DeviceError> {
-        let Stepper { device, tables: t, lister, .. } = self;
+        let Stepper { device, tables: t, lister, flags, .. } = self;
+        t.flags = flags.write(device.as_mut(), &[DeviceFlags::default()])?;
         lister.list(&mut Work { device: device.as_mut(), t }, (model, state, lists), why)?;
+        self.flags_are_sound()?;
+        let lister = &self.lister;
         let composition = |kind: usize| lister.fixed.kinds[kind].composition as usize;
         let mut found: Vec<usize> =
             lister.contacts.slots.segments.iter().map(|s| composition(s.kind)).collect();
@@ -241,9 +257,7 @@ impl Stepper {
                 }
                 device.launch(moves, t.particle_count as usize, t, step)?;
             }
-            let mut flags = [DeviceFlags::default()];
-            self.flags.read(device, &mut flags)?;
-            let [flags] = flags;
+            let flags = self.flags_are_sound()?;
             done += u64::from(if flags.stopped > 0 { flags.stopped } else { steps });
             // Asked in any case: lists that hold for a few steps end the loop before it would be.
             let wanted = goes_on(done);

@@ -7,7 +7,9 @@ use crate::kernel::device_tables::{Address, DeviceBlock, DeviceFlags, DeviceKind
 use crate::kernel::lists::tables::{DeviceSegment, DeviceWall, LeastRow};
 use crate::kernel::wall_point::WallPose;
 use crate::simd::{Row, Row4};
-use crate::space::images::Periods;
+use crate::space::images::WallImages;
+use geom::motion::Pose;
+use geom::{Lattice, Vec3};
 
 /// Rows that may be copied as bytes: they have no gaps, and every pattern of bits is one.
 ///
@@ -15,30 +17,63 @@ use crate::space::images::Periods;
 /// That is so.
 pub unsafe trait Plain: Copy {}
 
-macro_rules! plain {
-    ($($row:ty),*) => { $(
-        // SAFETY: numbers without gaps between them.
+macro_rules! numbers {
+    ($($number:ty),*) => { $(
+        // SAFETY: a number, of which every pattern of bits is one.
+        unsafe impl Plain for $number {}
+    )* };
+}
+numbers!(u8, u32, u64, i32, i64, f64);
+
+// SAFETY: rows one after the other, without gaps.
+unsafe impl<T: Plain, const N: usize> Plain for [T; N] {}
+
+/// Structures that are made of one kind of number, some of them with private fields.
+macro_rules! all_of {
+    ($($row:ty: $of:ty;)*) => { $(
+        const _: () = assert!(size_of::<$row>() == size_of::<$of>());
+        // SAFETY: these numbers, which leave no room for anything else.
         unsafe impl Plain for $row {}
     )* };
 }
-plain!(
-    u8,
-    u32,
-    u64,
-    f64,
-    [u32; 3],
-    Periods,
-    LeastRow,
-    DeviceSegment,
-    DeviceWall,
-    Row,
-    Row4,
-    SlotEnd,
-    DeviceBlock,
-    DeviceKind,
-    DeviceFlags,
-    WallPose
-);
+all_of! {
+    Address: u64;
+    SlotEnd: u32;
+    Vec3: [f64; 3];
+    Pose: [f64; 21];
+    Row: [f64; 8];
+    Row4: [f64; 4];
+}
+
+/// Structures of several kinds of fields: a field that is missing here or has another type, one that is not plain, or a gap is an error of the compiler.
+macro_rules! fields {
+    ($($row:ident { $($field:ident: $of:ty),* $(,)? })*) => { $(
+        const _: () = assert!(size_of::<$row>() == 0 $(+ size_of::<$of>())*);
+        const _: fn($row) = |$row { $($field),* }| { $(is_plain::<$of>($field);)* };
+        // SAFETY: its fields are plain, and there is nothing between them.
+        unsafe impl Plain for $row {}
+    )* };
+}
+fields! {
+    LeastRow { low: [f64; 3], opposite_high: [f64; 3], reach: f64, opposite_reach: f64 }
+    DeviceSegment { block: u32, kind: u32, history: u32, words: u32, point: u32 }
+    Lattice { origin: Vec3, cell: f64, dims: [i64; 3], block: [i64; 3], blocks: [i64; 3] }
+    WallImages { period: Vec3, lo: Vec3, hi: Vec3 }
+    DeviceWall {
+        pose: Pose, around: WallImages, margin: f64, largest: f64, lattice: Lattice, spheres: Address,
+        keys: Address, parts: u32, pad: u32, back: [i32; 4],
+    }
+    DeviceBlock { kind: u32, history: u32, point: u32 }
+    DeviceKind {
+        composition: u32, with: u32, numbers: u32, wall: u32, between: [u32; 2], class: u32, columns: u32,
+        flips: u32, patch: u32, plane: [[f64; 3]; 2],
+    }
+    DeviceFlags { stopped: u32, left_margin: u32, too_fast: u32, deep: u32, beyond: u32 }
+    WallPose { pose: Pose, belt: Pose, has_belt: u64 }
+}
+
+/// Only what is plain can be given.
+const fn is_plain<T: Plain>(_: T) {}
 
 /// A table, as long as it was at most.
 #[derive(Debug, Default)]

@@ -1,5 +1,7 @@
 //! A device gives the bits of a processor, and refuses what it does not compute.
 
+mod damaged;
+
 use super::*;
 use crate::effects::{ContactLaw, Material};
 use crate::model::With;

@@ -80,6 +80,8 @@ pub struct DeviceFlags {
     pub too_fast: u32,
     /// Whether an overlap passes its limit.
     pub deep: u32,
+    /// Whether a number in a table names a row that another does not have: memory is damaged, and the run cannot go on.
+    pub beyond: u32,
 }
 
 /// Columns of particles.
@@ -136,6 +138,10 @@ pub struct DeviceTables {
     pub rotates: u32,
     /// 1 where any effect makes torques.
     pub torques: u32,
+    /// Number of points.
+    pub point_count: u32,
+    /// Number of words of history.
+    pub history_count: u32,
     /// Columns of the particles.
     pub particles: ParticleTables,
     /// Columns of the contacts.
@@ -187,6 +193,19 @@ impl DeviceTables {
         // SAFETY: by contract. Threads of this step may write 1 + step meanwhile, which is no earlier one.
         let stopped = unsafe { self.flags.at::<u32>(0).read_volatile() };
         stopped != 0 && stopped <= step
+    }
+
+    /// Notes that a number of a table lies beyond another table, and ends the launch; in step `step` of it.
+    ///
+    /// # Safety
+    /// Tables are in place.
+    #[cold]
+    pub(crate) unsafe fn beyond(&self, step: u32) {
+        // SAFETY: by contract.
+        unsafe {
+            self.flag(4, 1);
+            self.flag(0, step + 1);
+        }
     }
 
     /// Sets a flag of [`DeviceFlags`] by its place. All threads write the same number.

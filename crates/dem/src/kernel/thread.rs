@@ -40,12 +40,19 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
             return;
         }
         let block: DeviceBlock = *t.contacts.blocks.at(slot / BLOCK);
+        if block.kind >= t.lists.kind_count {
+            return t.beyond(step);
+        }
         let kind: &DeviceKind = &*t.kinds.at(block.kind as usize);
         let i: u32 = *t.contacts.i.at(slot);
         if kind.composition != composition || i >= t.particle_count {
             return;
         }
         let lane = slot % BLOCK;
+        // 64 bits: no sum wraps.
+        if u64::from(block.history) + (E::HISTORY * BLOCK) as u64 > u64::from(t.history_count) {
+            return t.beyond(step);
+        }
         let layout = t.layout();
         let rows: &[Row] = t.table(t.particles.rows, t.particle_count + 2);
         let spins: &[Row4] =
@@ -55,14 +62,10 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
             let numbers = share::<true>(t, step, kind, (block.kind, i), slot);
             numbers.iter().enumerate().for_each(|(c, number)| patch[c * BLOCK] = *number);
         }
-        let (row, spin) = partner(
-            t,
-            step,
-            kind,
-            &rows[i as usize],
-            *t.contacts.partner.at(slot),
-            block.point as usize + lane,
-        );
+        let (other, number) = (*t.contacts.partner.at(slot), block.point as usize + lane);
+        let Some((row, spin)) = partner(t, step, kind, &rows[i as usize], other, number) else {
+            return t.beyond(step);
+        };
         let MoveInputs { dt, ahead, .. } = t.drive;
         let inputs = StepInputs { dt, ahead, overlap_limit: t.overlap_limit, rows, spins, layout };
         let (mut history, mut active) = ([0.0; COLUMNS * BLOCK], [false]);
@@ -146,7 +149,9 @@ unsafe fn share<const COPY: bool>(
         let touch = |k: usize| {
             let at = from + k;
             let point = block(at).point as usize + at % BLOCK;
-            let (other, _) = partner(t, step, kind, &row, *t.contacts.partner.at(at), point);
+            let other = partner(t, step, kind, &row, *t.contacts.partner.at(at), point);
+            // The contact itself says that it is beyond.
+            let other = other.map_or(row, |(other, _)| other);
             Touch::of(law, [t.drive.dt, t.drive.ahead], &row, &other, 0.0)
         };
         let Some(patch) = Patch::of(law, to - from, touch) else { return ALONE };
@@ -156,7 +161,7 @@ unsafe fn share<const COPY: bool>(
     }
 }
 
-/// Row and spin of the partner of a particle in `row`; `number`: of its point, where it is no particle.
+/// Row and spin of the partner of a particle in `row`; `number`: of its point, where it is no particle. None where a table has no such row.
 ///
 /// # Safety
 /// Tables are in place.
@@ -168,13 +173,17 @@ unsafe fn partner(
     row: &Row,
     other: u32,
     number: usize,
-) -> (Row, Row4) {
-    // SAFETY: by contract.
+) -> Option<(Row, Row4)> {
+    let has_point = number < t.point_count as usize;
+    // SAFETY: by contract, and the numbers of rows are below those of their tables.
     unsafe {
         if kind.with == SPHERES {
-            return (*t.points.at(number), Row4::default());
+            return has_point.then(|| (*t.points.at(number), Row4::default()));
         }
         if kind.with == PLANE || kind.with == MOVED_SPHERES {
+            if !has_point || kind.wall >= t.walls {
+                return None;
+            }
             let wall: &WallPose = &*t.poses.at((step * t.walls + kind.wall) as usize);
             let [x, y, z, radius, by_x, by_y, by_z, _] = **t.points.at::<Row>(number);
             let (home, shift) = (Vec3::new(x, y, z), Vec3::new(by_x, by_y, by_z));
@@ -184,7 +193,10 @@ unsafe fn partner(
             } else {
                 wall.pose.position(&home)
             };
-            return wall.row(position, radius, shift, centre);
+            return Some(wall.row(position, radius, shift, centre));
+        }
+        if other >= t.particle_count || kind.with == IMAGES && !has_point {
+            return None;
         }
         let mut row: Row = *t.particles.rows.at(other as usize);
         if kind.with == IMAGES {
@@ -193,7 +205,7 @@ unsafe fn partner(
                 row[a] += shift[4 + a];
             }
         }
-        (row, if t.rotates != 0 { *t.particles.spins.at(other as usize) } else { Row4::default() })
+        Some((row, if t.rotates != 0 { *t.particles.spins.at(other as usize) } else { Row4::default() }))
     }
 }
 
@@ -221,6 +233,9 @@ pub unsafe fn particle<const ROTATES: bool>(t: &DeviceTables, step: u32, k: usiz
         for entry in (from + arrivals..to).chain(from..from + arrivals) {
             let end: SlotEnd = *t.contacts.entries.at(entry as usize);
             let slot = end.slot();
+            if slot >= t.slot_count as usize {
+                return t.beyond(step);
+            }
             if *t.acts.at::<u8>(slot) == 0 {
                 continue;
             }

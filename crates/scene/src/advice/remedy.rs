@@ -5,79 +5,66 @@ use dem::{Entrance, Halt};
 /// Share of a guard up to which a wider guard is the smaller change [–]: beyond, the contact is too soft.
 const JUST_ABOVE: f64 = 1.2;
 
-/// A change of a scene or of the stages of a plant with which a run that was stopped goes on. Each that names a key or an option is tried by the tests.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs, reason = "each variant is its sentence in `text`")]
-pub enum Remedy {
-    ShortenStep,
-    SmallerShare,
-    RaiseOverlap,
-    RaiseMotion,
-    RaiseEnergy,
-    Stiffen,
-    MeetSlower,
-    RecordedPaths,
-    FreeZone,
-    Ahead,
-    CutBelow,
-    CutUpstream,
-    LongerZone,
-    RemoveReturned,
-    AllowReturned,
-    InsertShape,
-    InsertUntil,
-    InsertRate,
-    LookAtStart,
-    LookAtStiffness,
-    SpringLimit,
-    SpringMass,
-    ServoDirection,
-    ServoStart,
-    WithoutDevice,
-    EndBefore,
-    LargerDomain,
-    RecordWrenches,
-    SofterBonds,
-    MoveOne,
+/// Makes [`Remedy`], and the table of all of them.
+macro_rules! remedies {
+    ($($remedy:ident: $text:expr,)*) => {
+        /// A change of a scene or of the stages of a plant with which a run that was stopped goes on. Each that names a key or an option is tried by the tests.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        #[allow(missing_docs, reason = "each variant is its sentence")]
+        pub enum Remedy {
+            $($remedy,)*
+        }
+
+        impl Remedy {
+            /// All there are.
+            pub const ALL: &[Remedy] = &[$(Remedy::$remedy,)*];
+
+            /// Its sentence; {insert} stands for the number of the `[[insert]]`, {stiff} for what a stiffer contact is made of.
+            fn pattern(self) -> &'static str {
+                match self {
+                    $(Remedy::$remedy => $text,)*
+                }
+            }
+        }
+    };
+}
+
+remedies! {
+    ShortenStep: "shorten time.dt, or time.safety of an automatic step",
+    SmallerShare: "use a smaller time.safety (or time.dt)",
+    RaiseOverlap: "raise guards.overlap",
+    RaiseMotion: "raise guards.motion",
+    RaiseEnergy: "raise guards.energy",
+    Stiffen: "stiffen the material{stiff}",
+    MeetSlower: "let grains meet more slowly (a lower drop or speed of insertion)",
+    RecordedPaths: "let grains come in along the paths that they took (motion = \"recorded\" in both stages)",
+    FreeZone: "keep its zone free at the start",
+    Ahead: "let slow grains start farther back (stage-replay --ahead)",
+    CutBelow: "cut where nothing piles up to the plane, 3 to 4 grain diameters below a mouth",
+    CutUpstream: "cut the plant farther upstream",
+    LongerZone: "take a longer zone (length)",
+    RemoveReturned: "set guards.zones = \"remove\" to take out grains that came back",
+    AllowReturned: "set guards.zones = false where grains get there by another way",
+    InsertShape: "move insert.{insert}.shape to where nothing lies or piles up",
+    InsertUntil: "end it before (insert.{insert}.until)",
+    InsertRate: "lower insert.{insert}.rate",
+    LookAtStart: "look at its speed, spin and stiffness at the start: one is far too large",
+    LookAtStiffness: "look at the stiffness of its contacts",
+    SpringLimit: "raise wall.spring.speed_limit",
+    SpringMass: "raise wall.spring.mass",
+    ServoDirection: "turn wall.servo.direction round if it points away from the grains",
+    ServoStart: "start the wall where it meets them",
+    WithoutDevice: "go on without --device",
+    EndBefore: "end the run before (time.until)",
+    LargerDomain: "take a larger domain with more grains",
+    RecordWrenches: "set record_wrenches in the setup",
+    SofterBonds: "use softer or thinner bonds",
+    MoveOne: "move one of them",
 }
 
 use Remedy::*;
 
 impl Remedy {
-    /// All there are.
-    pub const ALL: [Remedy; 30] = [
-        ShortenStep,
-        SmallerShare,
-        RaiseOverlap,
-        RaiseMotion,
-        RaiseEnergy,
-        Stiffen,
-        MeetSlower,
-        RecordedPaths,
-        FreeZone,
-        Ahead,
-        CutBelow,
-        CutUpstream,
-        LongerZone,
-        RemoveReturned,
-        AllowReturned,
-        InsertShape,
-        InsertUntil,
-        InsertRate,
-        LookAtStart,
-        LookAtStiffness,
-        SpringLimit,
-        SpringMass,
-        ServoDirection,
-        ServoStart,
-        WithoutDevice,
-        EndBefore,
-        LargerDomain,
-        RecordWrenches,
-        SofterBonds,
-        MoveOne,
-    ];
-
     /// What helps, the smaller change first.
     pub fn of(halt: &Halt) -> Vec<Remedy> {
         match halt {
@@ -115,43 +102,7 @@ impl Remedy {
 
     /// The sentence; `k` is the number of the `[[insert]]`, `stiff` what a stiffer contact is made of.
     pub fn text(self, k: u32, stiff: &str) -> String {
-        let fixed = match self {
-            ShortenStep => "shorten time.dt, or time.safety of an automatic step",
-            SmallerShare => "use a smaller time.safety (or time.dt)",
-            RaiseOverlap => "raise guards.overlap",
-            RaiseMotion => "raise guards.motion",
-            RaiseEnergy => "raise guards.energy",
-            Stiffen => return format!("stiffen the material{stiff}"),
-            MeetSlower => "let grains meet more slowly (a lower drop or speed of insertion)",
-            RecordedPaths => {
-                "let grains come in along the paths that they took (motion = \"recorded\" in both stages)"
-            }
-            FreeZone => "keep its zone free at the start",
-            Ahead => "let slow grains start farther back (stage-replay --ahead)",
-            CutBelow => "cut where nothing piles up to the plane, 3 to 4 grain diameters below a mouth",
-            CutUpstream => "cut the plant farther upstream",
-            LongerZone => "take a longer zone (length)",
-            RemoveReturned => "set guards.zones = \"remove\" to take out grains that came back",
-            AllowReturned => "set guards.zones = false where grains get there by another way",
-            InsertShape => {
-                return format!("move insert.{k}.shape to where nothing lies or piles up");
-            }
-            InsertUntil => return format!("end it before (insert.{k}.until)"),
-            InsertRate => return format!("lower insert.{k}.rate"),
-            LookAtStart => "look at its speed, spin and stiffness at the start: one is far too large",
-            LookAtStiffness => "look at the stiffness of its contacts",
-            SpringLimit => "raise wall.spring.speed_limit",
-            SpringMass => "raise wall.spring.mass",
-            ServoDirection => "turn wall.servo.direction round if it points away from the grains",
-            ServoStart => "start the wall where it meets them",
-            WithoutDevice => "go on without --device",
-            EndBefore => "end the run before (time.until)",
-            LargerDomain => "take a larger domain with more grains",
-            RecordWrenches => "set record_wrenches in the setup",
-            SofterBonds => "use softer or thinner bonds",
-            MoveOne => "move one of them",
-        };
-        fixed.to_owned()
+        self.pattern().replace("{insert}", &k.to_string()).replace("{stiff}", stiff)
     }
 }
 

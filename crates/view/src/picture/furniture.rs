@@ -3,8 +3,8 @@
 mod extras;
 
 use super::{
-    Image, PictureOptions, font,
-    ink::{Anchor, Pen},
+    PictureOptions, font,
+    ink::{Anchor, Canvas, Pen},
     key::Key,
     lens::Lens,
     paint::Painted,
@@ -17,12 +17,12 @@ pub fn text_height(width: u32, height: u32) -> f64 {
     (f64::from(height.min(width)) / 62.0).max(7.0)
 }
 
-/// Adds all of it.
-pub fn add(image: &mut Image, painted: &Painted, lens: &Lens, options: &PictureOptions) {
-    let text = text_height(image.width, image.height);
-    let [w, h] = [f64::from(image.width), f64::from(image.height)];
+/// Adds what of it is in the rows of a canvas.
+pub fn add(canvas: Canvas, painted: &Painted, lens: &Lens, options: &PictureOptions) {
+    let text = text_height(canvas.size[0], canvas.size[1]);
+    let [w, h] = canvas.size.map(f64::from);
     let theme = Theme::of(options.dark);
-    let mut pen = Pen { image, colour: theme.ink, paper: theme.paper_bytes() };
+    let mut pen = Pen { canvas, colour: theme.ink, paper: theme.paper_bytes() };
     match &painted.key {
         Key::Bar { .. } => bar(&mut pen, [w, h], text, &painted.key),
         Key::Kinds { field, names } => {
@@ -208,14 +208,14 @@ mod tests {
     fn the_labels_of_the_bar_stay_in_the_picture() {
         for size in [[340, 210], [640, 720], [1920, 1080]] {
             let [width, height] = size;
-            let rgba = vec![255; 4 * (width * height) as usize];
-            let mut image = Image { width, height, rgba, subject: 0, outside: [0; 2] };
+            let mut rgba = vec![255; 4 * (width * height) as usize];
             let range = scale::Range { lo: -11.8, hi: -10.7 };
             let (field, unit) = ("z".to_owned(), "m");
             let key = Key::Bar { field, unit, range, beyond: [true; 2], map: crate::Map::default() };
-            let mut pen = Pen { image: &mut image, colour: [0; 3], paper: [255; 3] };
+            let canvas = Canvas { size, top: 0, rgba: &mut rgba };
+            let mut pen = Pen { canvas, colour: [0; 3], paper: [255; 3] };
             bar(&mut pen, size.map(f64::from), text_height(width, height), &key);
-            let inked = |x: u32| (0..height).any(|y| image.pixel(x, y) != [255; 4]);
+            let inked = |x: u32| (0..height).any(|y| rgba[4 * (y * width + x) as usize..][..4] != [255; 4]);
             let last = (0..width).rfind(|&x| inked(x)).unwrap();
             assert!(last < width - 2, "{size:?}: ink in column {last}");
         }

@@ -14,7 +14,7 @@ use geom::Vec3;
 use rayon::prelude::*;
 
 /// Rows of samples that are drawn together.
-const BAND: usize = 32;
+const BAND: usize = 16;
 
 /// Nearest distance drawn, as a share of the distance of what is looked at [–].
 const NEAREST: f64 = 1e-3;
@@ -48,29 +48,40 @@ type Veil = [f32; 2];
 
 /// All thin walls in a picture.
 pub struct Glaze {
-    /// Between the grains and the wall spheres, and before both; empty without thin walls.
+    pieces: Vec<Piece>,
+    /// Between the grains and the wall spheres, and before both, for the rows that are held; empty without thin walls.
     veils: Vec<[Veil; 2]>,
+    /// The first sample that is held.
+    first: usize,
+    /// How much darker a face is in a shadow [–].
+    shade: f32,
 }
 
 impl Glaze {
-    /// Draws `panes` where they are nearer than `solid`, and apart where they are nearer than `glass` too.
-    /// On their faces lies the `shadow` of what is solid.
-    pub fn new(
-        panes: &[Pane],
+    /// What is drawn of `panes`; no row is held yet.
+    pub fn new(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Glaze {
+        let shade = Theme::of(options.dark).shade;
+        Glaze { pieces: pieces(panes, lens, options), veils: Vec::new(), first: 0, shade }
+    }
+
+    /// Draws these rows of samples, from one to before another, and lets others go: panes where they are nearer than
+    /// `solid`, and apart where they are nearer than `glass` too. On their faces lies the `shadow` of what is solid.
+    pub fn hold(
+        &mut self,
+        [from, to]: [usize; 2],
         lens: &Lens,
         [solid, glass]: [&Depths; 2],
         shadow: &Shadow,
-        options: &PictureOptions,
-    ) -> Glaze {
-        let pieces = pieces(panes, lens, options);
+    ) {
+        let (Glaze { pieces, shade, .. }, width) = (&*self, lens.size[0]);
         if pieces.is_empty() {
-            return Glaze { veils: Vec::new() };
+            return;
         }
-        let (width, shade) = (lens.size[0], Theme::of(options.dark).shade);
-        let mut veils = vec![[[0.0; 2]; 2]; width * lens.size[1]];
+        let mut veils = vec![[[0.0; 2]; 2]; width * (to - from)];
         veils.par_chunks_mut(width * BAND).enumerate().for_each(|(n, band)| {
-            let rows = [n * BAND, n * BAND + band.len() / width];
-            for piece in &pieces {
+            let first = from + n * BAND;
+            let rows = [first, first + band.len() / width];
+            for piece in pieces {
                 piece.fill(rows, width, |at, inverse| {
                     let depth = (1.0 / inverse) as f32;
                     if inverse <= piece.farthest && depth < solid.depth(at) {
@@ -78,23 +89,23 @@ impl Glaze {
                         if piece.plane && before == 0 {
                             return;
                         }
-                        let tone = piece.shaded(shadow, lens, at, 1.0 / inverse, shade);
+                        let tone = piece.shaded(shadow, lens, at, 1.0 / inverse, *shade);
                         lay(&mut band[at - rows[0] * width][before], tone);
                     }
                 });
             }
         });
-        Glaze { veils }
+        (self.veils, self.first) = (veils, from * width);
     }
 
     /// A colour as seen through what is between grains and wall spheres.
     pub fn behind(&self, sample: usize, under: [f32; 3]) -> [f32; 3] {
-        self.veils.get(sample).map_or(under, |v| veiled(under, v[0]))
+        self.veils.get(sample.wrapping_sub(self.first)).map_or(under, |v| veiled(under, v[0]))
     }
 
     /// A colour as seen through what is before both.
     pub fn before(&self, sample: usize, under: [f32; 3]) -> [f32; 3] {
-        self.veils.get(sample).map_or(under, |v| veiled(under, v[1]))
+        self.veils.get(sample.wrapping_sub(self.first)).map_or(under, |v| veiled(under, v[1]))
     }
 }
 

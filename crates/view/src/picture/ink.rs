@@ -1,6 +1,6 @@
 //! Lines, areas and text, drawn into a picture with soft edges.
 
-use super::{Image, font};
+use super::font;
 
 /// Where the given point of a text lies in it.
 #[derive(Clone, Copy)]
@@ -10,9 +10,26 @@ pub enum Anchor {
     Right,
 }
 
-/// Draws into an image.
+/// Some rows of a picture, drawn into.
+pub struct Canvas<'a> {
+    /// Width and height of the whole picture [pixel].
+    pub size: [u32; 2],
+    /// Number of the first row.
+    pub top: usize,
+    /// Four bytes a pixel.
+    pub rgba: &'a mut [u8],
+}
+
+impl Canvas<'_> {
+    /// The rows that it has, from one to before another.
+    fn rows(&self) -> [usize; 2] {
+        [self.top, self.top + self.rgba.len() / (4 * self.size[0] as usize)]
+    }
+}
+
+/// Draws into a picture; what is outside of the rows of its canvas is left out.
 pub struct Pen<'a> {
-    pub image: &'a mut Image,
+    pub canvas: Canvas<'a>,
     pub colour: [u8; 3],
     /// Of the rim around text.
     pub paper: [u8; 3],
@@ -46,8 +63,9 @@ impl Pen<'_> {
         let high = |k: usize, size: u32| {
             ends().map(|p| p[k] + reach).fold(0.0, f64::max).ceil().min(f64::from(size)) as usize
         };
-        let [x0, y0] = [low(0), low(1)];
-        let [x1, y1] = [high(0, self.image.width), high(1, self.image.height)];
+        let [top, bottom] = self.canvas.rows();
+        let [x0, y0] = [low(0), low(1).max(top)];
+        let [x1, y1] = [high(0, self.canvas.size[0]), high(1, self.canvas.size[1]).min(bottom)];
         if x0 >= x1 || y0 >= y1 {
             return;
         }
@@ -76,18 +94,19 @@ impl Pen<'_> {
     /// A filled rectangle: left, top, right, bottom [pixel].
     pub fn fill(&mut self, area: [f64; 4]) {
         let [x0, y0, x1, y1] = area.map(|v| v.round().max(0.0) as usize);
-        for y in y0..y1.min(self.image.height as usize) {
-            for x in x0..x1.min(self.image.width as usize) {
+        let [top, bottom] = self.canvas.rows();
+        for y in y0.max(top)..y1.min(bottom) {
+            for x in x0..x1.min(self.canvas.size[0] as usize) {
                 self.blend(x, y, 1.0);
             }
         }
     }
 
     fn blend(&mut self, x: usize, y: usize, share: f64) {
-        let at = 4 * (y * self.image.width as usize + x);
+        let at = 4 * ((y - self.canvas.top) * self.canvas.size[0] as usize + x);
         for k in 0..3 {
-            let under = f64::from(self.image.rgba[at + k]);
-            self.image.rgba[at + k] = (under + share * (f64::from(self.colour[k]) - under)).round() as u8;
+            let under = f64::from(self.canvas.rgba[at + k]);
+            self.canvas.rgba[at + k] = (under + share * (f64::from(self.colour[k]) - under)).round() as u8;
         }
     }
 }

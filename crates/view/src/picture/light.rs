@@ -52,35 +52,62 @@ struct Shaded<'a> {
     reach: f64,
 }
 
-/// Draws everything on white; four bytes a pixel.
-pub fn render(painted: &Painted, lens: &Lens, options: &PictureOptions) -> Vec<u8> {
+/// Rows of pixels that are made together: all that is held of a picture, with what is around them.
+const ROWS: usize = 64;
+
+/// How far around a sample shade is looked for at most, as a share of the height of the picture [–].
+const FARTHEST: f64 = 0.06;
+
+/// Draws everything on white, from the top down; `each` takes some rows, the first of which has the number given, with
+/// four bytes a pixel.
+pub fn render<E>(
+    painted: &Painted,
+    lens: &Lens,
+    options: &PictureOptions,
+    mut each: impl FnMut(usize, Vec<u8>) -> Result<(), E>,
+) -> Result<(), E> {
     let walls_only = painted.layers.iter().all(|l| l.role == Role::Walls);
     let see_through = |l: &&PaintedLayer| l.role == Role::Walls && !walls_only && options.wall_opacity < 1.0;
     let (glass, solid): (Vec<&PaintedLayer>, Vec<&PaintedLayer>) =
         painted.layers.iter().partition(see_through);
     let keep = options.cut.then_some(|place: Vec3| lens.seen(place)[2] >= lens.distance);
     let extent = painted.ball();
-    let solid = Shaded::new(&solid, &painted.rods, lens, extent, keep);
-    let glass = Shaded::new(&glass, &[], lens, extent, keep);
-    let glaze = Glaze::new(&painted.panes, lens, [&solid.depths, &glass.depths], &solid.shadow, options);
+    let mut solid = Shaded::new(&solid, &painted.rods, lens, extent, keep);
+    let mut glass = Shaded::new(&glass, &[], lens, extent, keep);
+    let mut glaze = Glaze::new(&painted.panes, lens, options);
     let (opacity, theme) = (options.wall_opacity as f32, Theme::of(options.dark));
-    let width = options.width as usize;
-    let mut rgba = vec![255u8; width * options.height as usize * 4];
-    rgba.par_chunks_mut(width * 4).enumerate().for_each(|(y, row)| {
-        for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
-            let samples = if whole(&solid.depths, &glass.depths, lens, [x, y]) { &TWO[..] } else { &ALL };
-            let mut sum = [0f32; 3];
-            for sample in samples {
-                let at = [x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES];
-                let seen = through([&solid, &glass], &glaze, lens, at, (opacity, theme));
-                sum = std::array::from_fn(|k| sum[k] + seen[k]);
+    let (width, height) = (options.width as usize, options.height as usize);
+    for top in (0..height).step_by(ROWS) {
+        let rows = [top, (top + ROWS).min(height)].map(|row| row * SAMPLES);
+        solid.hold(rows, lens);
+        glass.hold(rows, lens);
+        glaze.hold(rows, lens, [&solid.depths, &glass.depths], &solid.shadow);
+        let (solid, glass, glaze) = (&solid, &glass, &glaze);
+        let mut rgba = vec![255u8; width * (rows[1] - rows[0]) / SAMPLES * 4];
+        rgba.par_chunks_mut(width * 4).enumerate().for_each(|(n, row)| {
+            let y = top + n;
+            for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
+                let samples = if whole(&solid.depths, &glass.depths, lens, [x, y]) { &TWO[..] } else { &ALL };
+                let mut sum = [0f32; 3];
+                for sample in samples {
+                    let at = [x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES];
+                    let seen = through([solid, glass], glaze, lens, at, (opacity, theme));
+                    sum = std::array::from_fn(|k| sum[k] + seen[k]);
+                }
+                for k in 0..3 {
+                    pixel[k] = (sum[k] * 255.0 / samples.len() as f32 + 0.5).clamp(0.0, 255.0) as u8;
+                }
             }
-            for k in 0..3 {
-                pixel[k] = (sum[k] * 255.0 / samples.len() as f32 + 0.5).clamp(0.0, 255.0) as u8;
-            }
-        }
-    });
-    rgba
+        });
+        each(top, rgba)?;
+    }
+    Ok(())
+}
+
+/// How far around a sample at this depth [m] shade is looked for, where it is looked for over `reach` [m]; [sample].
+fn reach_on(lens: &Lens, reach: f64, depth: f64) -> f64 {
+    let most = FARTHEST * lens.size[1] as f64;
+    if depth > 0.0 { (reach * lens.focal / depth).clamp(4.0, most) } else { most }
 }
 
 /// Whether all samples of a pixel see the same sphere: then there is no edge to smooth.
@@ -141,6 +168,13 @@ impl<'a> Shaded<'a> {
         Shaded { depths, shadow, spheres, rods, kin, reach: 4.0 * usual }
     }
 
+    /// Holds these rows of samples, and those above and below that shade is looked for in.
+    fn hold(&mut self, [from, to]: [usize; 2], lens: &Lens) {
+        // Depths are kept with seven digits: half a thousandth more is safe.
+        let around = (1.0005 * reach_on(lens, self.reach, self.depths.nearest)).ceil() as usize + 1;
+        self.depths.hold([from.saturating_sub(around), to + around], &self.spheres, lens);
+    }
+
     /// The lit colour at a sample, and how near to its outline that is; or none where there is nothing. `others` cast
     /// shadows on it too.
     fn colour(&self, lens: &Lens, at: [usize; 2], others: Option<&Shadow>) -> Option<([f32; 3], f32)> {
@@ -177,7 +211,7 @@ impl<'a> Shaded<'a> {
     /// How much of the sky a sample sees, 0 to 1, judged by what stands around it in the picture; a body does not hide
     /// the sky from itself, which would darken the lines between its spheres.
     fn openness(&self, lens: &Lens, at: [usize; 2], point: [f64; 3], met: &Met) -> f32 {
-        let reach = (self.reach * lens.focal / point[2]).clamp(4.0, 0.06 * lens.size[1] as f64) as f32;
+        let reach = reach_on(lens, self.reach, point[2]) as f32;
         let world = (f64::from(reach) * point[2] / lens.focal) as f32;
         // Each of the four samples of a pixel looks a quarter turn further on, so a pixel looks everywhere.
         let (cos, sin) =

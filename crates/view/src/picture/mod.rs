@@ -11,6 +11,7 @@ mod kin;
 mod lens;
 mod light;
 mod paint;
+mod png;
 mod rods;
 mod shadow;
 mod shapes;
@@ -20,10 +21,12 @@ mod survey;
 mod theme;
 
 pub use paint::DrawnTable;
+pub use png::Png;
 pub(crate) use shapes::{ArrowKey, arrow_key};
 pub use survey::Survey;
 
 use crate::{Camera, Map, ViewError, WallSurface, field};
+use ink::Canvas;
 use paint::Painted;
 use stream::Table;
 
@@ -90,23 +93,6 @@ impl Image {
         let at = 4 * (y as usize * self.width as usize + x as usize);
         [self.rgba[at], self.rgba[at + 1], self.rgba[at + 2], self.rgba[at + 3]]
     }
-
-    /// The picture as a PNG file.
-    ///
-    /// # Errors
-    /// The encoder failed.
-    pub fn png(&self) -> Result<Vec<u8>, ViewError> {
-        let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_compression(png::Compression::Fast);
-        let rgb: Vec<u8> = self.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
-        let mut writer = encoder.write_header().map_err(ViewError::Png)?;
-        writer.write_image_data(&rgb).map_err(ViewError::Png)?;
-        writer.finish().map_err(ViewError::Png)?;
-        Ok(bytes)
-    }
 }
 
 /// Draws the parts as they are at one moment, and the surfaces where they are at the time stated.
@@ -133,17 +119,58 @@ pub fn draw_surveyed(
     survey: &Survey,
     options: &PictureOptions,
 ) -> Result<Image, ViewError> {
+    let mut rgba = Vec::with_capacity(4 * options.width as usize * options.height as usize);
+    let drawn = rows(parts, surfaces, survey, options, |rows| {
+        rgba.extend_from_slice(rows);
+        Ok(())
+    })?;
+    let (width, height) = (options.width, options.height);
+    Ok(Image { width, height, rgba, subject: drawn.subject, outside: drawn.outside })
+}
+
+/// Draws as [`draw`], into a PNG file: a few rows of the picture are in memory at once.
+///
+/// # Errors
+/// As [`draw`]; the encoder failed.
+pub fn png(
+    parts: &[DrawnTable],
+    surfaces: &[WallSurface],
+    options: &PictureOptions,
+) -> Result<Png, ViewError> {
+    let mut survey = Survey::default();
+    survey.add(parts, surfaces, options)?;
+    let mut file = png::Rows::new([options.width, options.height])?;
+    let drawn = rows(parts, surfaces, &survey, options, |rows| file.add(rows))?;
+    file.finish(drawn)
+}
+
+/// What is known of a picture besides its colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Drawn {
+    subject: u32,
+    outside: [usize; 2],
+}
+
+/// Draws from the top down; `each` takes the next rows, four bytes a pixel.
+fn rows(
+    parts: &[DrawnTable],
+    surfaces: &[WallSurface],
+    survey: &Survey,
+    options: &PictureOptions,
+    mut each: impl FnMut(&[u8]) -> Result<(), ViewError>,
+) -> Result<Drawn, ViewError> {
     let (width, height) = (options.width, options.height);
     if !(64..=16384).contains(&width) || !(64..=16384).contains(&height) {
         return Err(ViewError::Size { width, height });
     }
     let painted = Painted::new(parts, surfaces, survey, options)?;
     let lens = lens::Lens::new(&painted, options);
-    let shown = light::render(&painted, &lens, options);
-    let (subject, outside) = (lens.longer_side(&painted.outline), painted.outside(&lens, options));
-    let mut image = Image { width, height, rgba: shown, subject, outside };
-    furniture::add(&mut image, &painted, &lens, options);
-    Ok(image)
+    light::render(&painted, &lens, options, |top, mut rgba| {
+        let canvas = Canvas { size: [width, height], top, rgba: &mut rgba };
+        furniture::add(canvas, &painted, &lens, options);
+        each(&rgba)
+    })?;
+    Ok(Drawn { subject: lens.longer_side(&painted.outline), outside: painted.outside(&lens, options) })
 }
 
 /// The colour of the paper.

@@ -73,6 +73,12 @@ impl SeenRod {
         lens.shows(window).then_some(SeenRod { ends, radii: rod.radii, shape, window })
     }
 
+    /// Nothing of it is nearer to the eye [m].
+    pub fn nearest(&self) -> f64 {
+        let [a, b] = [0, 1].map(|k| self.ends[k].z - self.radii[k]);
+        if let RodShape::Face(c) = self.shape { a.min(b).min(c.z) } else { a.min(b) }
+    }
+
     /// The larger radius [m].
     pub fn radius(&self) -> f64 {
         self.radii[0].max(self.radii[1])

@@ -51,10 +51,11 @@ impl Shadow {
         let towards = (eye.place([right, up, forward]) - eye.eye).normalize();
         let lamp = Lens::far(middle, radius, towards, SIZE);
         let fine = 2.0 * radius / SIZE as f64;
-        let drawn = splat(spheres, rods, &lamp);
+        let mut drawn = splat(spheres, rods, &lamp);
+        drawn.hold([0, SIZE], spheres, &lamp);
         let body_at = |at| drawn.number(at).and_then(|n| kin.of(n)).unwrap_or(NOTHING);
-        let body = if kin.is_empty() { Vec::new() } else { (0..drawn.depth.len()).map(body_at).collect() };
-        Shadow { lamp, depth: drawn.depth, body, fine, reach: REACH * usual }
+        let body = if kin.is_empty() { Vec::new() } else { (0..SIZE * SIZE).map(body_at).collect() };
+        Shadow { lamp, depth: drawn.all(), body, fine, reach: REACH * usual }
     }
 
     /// How much of the lamp a point of what was met sees, 0 to 1; it and its normal are as seen by `eye`. A body casts no

@@ -3,6 +3,9 @@
 //! The picture is cut into tiles; a tile draws its spheres from near to far, in the order of their numbers where
 //! equally near, and skips those behind all it has drawn. Tiles do not touch each other's samples, so the result
 //! does not depend on the number of threads. What a sphere looks like is computed where it is needed, and not kept.
+//!
+//! A picture is made from the top down, and only the rows of tiles that are looked at are held: what a large picture
+//! needs does not grow with its height.
 
 use super::{
     joined::Joined,
@@ -30,16 +33,24 @@ struct Ball {
     window: [f64; 4],
 }
 
-/// The nearest surface at each sample.
+/// The nearest surface at each sample of the rows that are held.
 pub struct Depths {
     /// Distance along the axis of the eye [m]; infinite where there is nothing; empty without spheres and rods.
-    pub depth: Vec<f32>,
+    depth: Vec<f32>,
     /// The number of the sphere there, or, beyond all spheres, the rod; or [`NOTHING`].
     ball: Vec<u32>,
+    /// The first sample that is held.
+    first: usize,
+    /// Rows of tiles that are drawn, some of them no longer held.
+    drawn: usize,
+    /// What is in each tile that is not drawn: numbers of spheres, and of rods.
+    lists: [Vec<Vec<u32>>; 2],
     /// How many spheres were given.
     spheres: usize,
     /// The rods that are seen, each with its number in the list it came from.
     rods: Vec<(SeenRod, u32)>,
+    /// Nothing is nearer to the eye [m]; infinite where nothing is seen.
+    pub nearest: f64,
 }
 
 /// What is met at a sample.
@@ -55,14 +66,14 @@ pub struct Met {
 }
 
 impl Depths {
-    /// Distance of what is at a sample [m]; infinite where there is nothing.
+    /// Distance of what is at a sample [m]; infinite where there is nothing, and in rows that are not held.
     pub fn depth(&self, sample: usize) -> f32 {
-        self.depth.get(sample).copied().unwrap_or(f32::INFINITY)
+        self.depth.get(sample.wrapping_sub(self.first)).copied().unwrap_or(f32::INFINITY)
     }
 
     /// What is at a sample, or [`NOTHING`]: a number that samples of the same sphere or rod share.
     pub fn ball(&self, sample: usize) -> u32 {
-        self.ball.get(sample).copied().unwrap_or(NOTHING)
+        self.ball.get(sample.wrapping_sub(self.first)).copied().unwrap_or(NOTHING)
     }
 
     /// What is at a sample that sees `point`.
@@ -88,28 +99,81 @@ impl Depths {
     }
 }
 
-/// Draws all spheres and rods.
+/// Sorts all spheres and rods into tiles; no row is drawn yet.
 pub fn splat(spheres: &Joined, rods: &[Rod], lens: &Lens) -> Depths {
-    let [w, h] = lens.size;
-    let across = w.div_ceil(TILE);
     let seen = |(number, rod): (usize, &Rod)| Some((SeenRod::new(rod, lens)?, number as u32));
     let rods: Vec<(SeenRod, u32)> = rods.iter().enumerate().filter_map(seen).collect();
-    let samples = if spheres.len() == 0 && rods.is_empty() { 0 } else { w * h };
-    let lists = by_tile(spheres.len(), |i| Ball::seen(spheres, i, lens).map(|ball| ball.window), [w, h]);
-    let rod_lists = by_tile(rods.len(), |i| Some(rods[i].0.window), [w, h]);
-    let mut depth = vec![f32::INFINITY; samples];
-    let mut ball = vec![NOTHING; samples];
-    let bands = depth.par_chunks_mut(TILE * w).zip(ball.par_chunks_mut(TILE * w));
-    bands.enumerate().for_each(|(row, (depth, ball))| {
-        for column in 0..across {
-            let mut tile = Tile { depth, ball, width: w, left: column * TILE, top: row * TILE };
-            tile.draw(spheres, &lists[row * across + column], lens);
-            for &number in &rod_lists[row * across + column] {
-                tile.draw_rod(&rods[number as usize].0, spheres.len() as u32 + number, lens);
+    let ball = |i: usize| Ball::seen(spheres, i, lens);
+    let near = |i: usize| ball(i).map_or(f64::INFINITY, |ball| ball.centre[2] - ball.radius);
+    let nearest = (0..spheres.len()).into_par_iter().map(near).reduce(|| f64::INFINITY, f64::min);
+    let lists = if spheres.len() == 0 && rods.is_empty() {
+        [Vec::new(), Vec::new()]
+    } else {
+        [
+            by_tile(spheres.len(), |i| ball(i).map(|ball| ball.window), lens.size),
+            by_tile(rods.len(), |i| Some(rods[i].0.window), lens.size),
+        ]
+    };
+    Depths {
+        depth: Vec::new(),
+        ball: Vec::new(),
+        first: 0,
+        drawn: 0,
+        lists,
+        spheres: spheres.len(),
+        nearest: rods.iter().map(|(rod, _)| rod.nearest()).fold(nearest, f64::min),
+        rods,
+    }
+}
+
+impl Depths {
+    /// Holds these rows of samples, from one to before another, and no row above them: rows that were let go are not
+    /// drawn again.
+    pub fn hold(&mut self, [from, to]: [usize; 2], spheres: &Joined, lens: &Lens) {
+        let [width, height] = lens.size;
+        if self.lists[0].is_empty() {
+            return;
+        }
+        let above = (from * width).saturating_sub(self.first).min(self.depth.len());
+        self.depth.drain(..above);
+        self.ball.drain(..above);
+        self.first += above;
+        let rows = to.min(height).div_ceil(TILE);
+        let across = width.div_ceil(TILE);
+        let tiles: Vec<Tile> = (self.drawn * across..(rows * across).max(self.drawn * across))
+            .into_par_iter()
+            .map(|number| self.tile(number, spheres, lens))
+            .collect();
+        for row in tiles.chunks(across) {
+            let [_, _, top, bottom] = row[0].area;
+            for y in 0..bottom - top {
+                row.iter().for_each(|tile| tile.add_row(y, &mut self.depth, &mut self.ball));
             }
         }
-    });
-    Depths { depth, ball, spheres: spheres.len(), rods }
+        for lists in &mut self.lists {
+            let drawn = self.drawn * across..(rows * across).max(self.drawn * across);
+            lists[drawn].iter_mut().for_each(|list| *list = Vec::new());
+        }
+        self.drawn = self.drawn.max(rows);
+    }
+
+    /// The distances of all samples that are held [m], row by row.
+    pub fn all(self) -> Vec<f32> {
+        self.depth
+    }
+
+    /// Draws a tile.
+    fn tile(&self, number: usize, spheres: &Joined, lens: &Lens) -> Tile {
+        let [width, height] = lens.size;
+        let across = width.div_ceil(TILE);
+        let [left, top] = [number % across * TILE, number / across * TILE];
+        let mut tile = Tile::new([left, (left + TILE).min(width), top, (top + TILE).min(height)]);
+        tile.draw(spheres, &self.lists[0][number], lens);
+        for &rod in &self.lists[1][number] {
+            tile.draw_rod(&self.rods[rod as usize].0, spheres.len() as u32 + rod, lens);
+        }
+        tile
+    }
 }
 
 impl Ball {
@@ -149,16 +213,27 @@ fn by_tile(
     lists
 }
 
-/// One tile, in the band of rows that holds it.
-struct Tile<'a> {
-    depth: &'a mut [f32],
-    ball: &'a mut [u32],
-    width: usize,
-    left: usize,
-    top: usize,
+/// One tile.
+struct Tile {
+    depth: Vec<f32>,
+    ball: Vec<u32>,
+    /// Its samples: columns from one to before another, and rows.
+    area: [usize; 4],
 }
 
-impl Tile<'_> {
+impl Tile {
+    fn new(area: [usize; 4]) -> Tile {
+        let samples = (area[1] - area[0]) * (area[3] - area[2]);
+        Tile { depth: vec![f32::INFINITY; samples], ball: vec![NOTHING; samples], area }
+    }
+
+    /// Adds one of its rows, counted from its top, to those of the picture.
+    fn add_row(&self, y: usize, depth: &mut Vec<f32>, ball: &mut Vec<u32>) {
+        let width = self.area[1] - self.area[0];
+        depth.extend_from_slice(&self.depth[y * width..][..width]);
+        ball.extend_from_slice(&self.ball[y * width..][..width]);
+    }
+
     fn draw(&mut self, spheres: &Joined, list: &[u32], lens: &Lens) {
         let near = |&i: &u32| (lens.seen(spheres.at(i as usize))[2] - spheres.radius(i as usize), i);
         let mut list: Vec<(f64, u32)> = list.iter().map(near).collect();
@@ -166,7 +241,7 @@ impl Tile<'_> {
         let mut behind = f32::INFINITY;
         for (n, &(near, number)) in list.iter().enumerate() {
             if n % 64 == 63 {
-                behind = self.farthest();
+                behind = self.depth.iter().copied().fold(0.0, f32::max);
             }
             if near as f32 > behind {
                 return; // all others are farther still
@@ -177,63 +252,44 @@ impl Tile<'_> {
         }
     }
 
-    /// Samples of the tile, as ends of its columns and rows in the band.
-    fn bounds(&self) -> [usize; 4] {
-        let rows = self.depth.len() / self.width;
-        [self.left, (self.left + TILE).min(self.width), 0, rows]
-    }
-
-    fn farthest(&self) -> f32 {
-        let [x0, x1, y0, y1] = self.bounds();
-        let row = |y: usize| &self.depth[y * self.width + x0..y * self.width + x1];
-        (y0..y1).flat_map(row).copied().fold(0.0, f32::max)
-    }
-
     /// Columns and rows of the tile that a window covers.
     fn part(&self, [bx0, bx1, by0, by1]: [f64; 4]) -> [usize; 4] {
-        let [x0, x1, y0, y1] = self.bounds();
+        let [x0, x1, y0, y1] = self.area;
         let from = |sample: f64, low: usize| (sample.ceil().max(0.0) as usize).max(low);
         let to = |sample: f64, high: usize| ((sample.floor().max(-1.0) + 1.0) as usize).min(high);
-        let [left, right] = [from(bx0 - 0.5, x0), to(bx1 - 0.5, x1)];
-        [left, right, from(by0 - 0.5, self.top + y0), to(by1 - 0.5, self.top + y1)]
+        [from(bx0 - 0.5, x0), to(bx1 - 0.5, x1), from(by0 - 0.5, y0), to(by1 - 0.5, y1)]
+    }
+
+    /// Sets each sample of a window to what `depth` finds there, where that is nearer: x/z and y/z of the sample.
+    fn fill(&mut self, window: [f64; 4], number: u32, lens: &Lens, depth: impl Fn(f64, f64) -> Option<f64>) {
+        let [left, right, top, bottom] = self.part(window);
+        let [x0, x1, y0, _] = self.area;
+        for y in top..bottom {
+            let dy = (lens.centre[1] - (y as f64 + 0.5)) / lens.focal;
+            let base = (y - y0) * (x1 - x0);
+            for x in left..right {
+                let dx = (x as f64 + 0.5 - lens.centre[0]) / lens.focal;
+                let Some(depth) = depth(dx, dy) else { continue };
+                let place = base + x - x0;
+                if (depth as f32) < self.depth[place] {
+                    self.depth[place] = depth as f32;
+                    self.ball[place] = number;
+                }
+            }
+        }
     }
 
     fn draw_rod(&mut self, rod: &SeenRod, number: u32, lens: &Lens) {
-        let [left, right, top, bottom] = self.part(rod.window);
-        for y in top..bottom {
-            let dy = (lens.centre[1] - (y as f64 + 0.5)) / lens.focal;
-            let base = (y - self.top) * self.width;
-            for x in left..right {
-                let dx = (x as f64 + 0.5 - lens.centre[0]) / lens.focal;
-                let Some(depth) = rod.depth(dx, dy) else { continue };
-                if (depth as f32) < self.depth[base + x] {
-                    self.depth[base + x] = depth as f32;
-                    self.ball[base + x] = number;
-                }
-            }
-        }
+        self.fill(rod.window, number, lens, |dx, dy| rod.depth(dx, dy));
     }
 
     fn draw_ball(&mut self, ball: &Ball, number: u32, lens: &Lens) {
-        let [left, right, top, bottom] = self.part(ball.window);
         let [cx, cy, cz] = ball.centre;
         let outside = cx * cx + cy * cy + cz * cz - ball.radius * ball.radius;
-        for y in top..bottom {
-            let dy = (lens.centre[1] - (y as f64 + 0.5)) / lens.focal;
-            let base = (y - self.top) * self.width;
-            for x in left..right {
-                let dx = (x as f64 + 0.5 - lens.centre[0]) / lens.focal;
-                let (a, b) = (dx * dx + dy * dy + 1.0, dx * cx + dy * cy + cz);
-                let inside = b * b - a * outside;
-                if inside < 0.0 {
-                    continue;
-                }
-                let depth = ((b - inside.sqrt()) / a) as f32;
-                if depth < self.depth[base + x] {
-                    self.depth[base + x] = depth;
-                    self.ball[base + x] = number;
-                }
-            }
-        }
+        self.fill(ball.window, number, lens, |dx, dy| {
+            let (a, b) = (dx * dx + dy * dy + 1.0, dx * cx + dy * cy + cz);
+            let inside = b * b - a * outside;
+            (inside >= 0.0).then(|| (b - inside.sqrt()) / a)
+        });
     }
 }

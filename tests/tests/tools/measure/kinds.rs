@@ -34,7 +34,7 @@ const FLOOR: &str = "[[wall]]\nplane = \"0,0,0,0,0,1\"\nmaterial = \"a\"\n\
 const GRAINS: &str = "[[fill]]\nmaterial = \"a\"\nshape = \"box:0,0,0,0.05,0.05,0.05\"\ndiameter = [0.006, 0.008]\ncount = 120\n";
 
 /// A kind of run, its scene and its further options.
-fn kinds() -> Vec<(&'static str, String, &'static [&'static str])> {
+pub(super) fn kinds() -> Vec<(&'static str, String, &'static [&'static str])> {
     let clumps = "[[clump]]\nname = \"dumbbell\"\nmaterial = \"a\"\nspheres = [[-0.003, 0, 0, 0.004], [0.003, 0, 0, 0.004]]\n\
                   [[fill]]\nclump = \"dumbbell\"\nshape = \"box:0,0,0,0.05,0.05,0.08\"\ncount = 25\n";
     let bond = "[[material]]\nname = \"rock\"\ndensity = 2500\nyoung = 1e7\npoisson = 0.2\n\
@@ -53,13 +53,13 @@ fn kinds() -> Vec<(&'static str, String, &'static [&'static str])> {
 }
 
 /// What a run holds, by channel and time.
-struct Held {
-    folder: TempDir,
+pub(super) struct Held {
+    pub folder: TempDir,
     tables: BTreeMap<String, Vec<(f64, Table)>>,
 }
 
 impl Held {
-    fn new(scene: &str, options: &[&str]) -> Held {
+    pub fn new(scene: &str, options: &[&str]) -> Held {
         let folder = tempdir().unwrap();
         fs::write(folder.path().join("s.toml"), scene).unwrap();
         let rod: String =
@@ -76,29 +76,29 @@ impl Held {
         Held { folder, tables }
     }
 
-    fn all(&self, topic: &str) -> &[(f64, Table)] {
+    pub fn all(&self, topic: &str) -> &[(f64, Table)] {
         self.tables.get(topic).map_or(&[], Vec::as_slice)
     }
 
-    fn times(&self) -> Vec<f64> {
+    pub fn times(&self) -> Vec<f64> {
         self.all("/particles").iter().map(|frame| frame.0).collect()
     }
 
-    fn table(&self, topic: &str, time: f64) -> Option<&Table> {
+    pub fn table(&self, topic: &str, time: f64) -> Option<&Table> {
         self.all(topic).iter().find(|t| (t.0 - time).abs() < 1e-9).map(|t| &t.1)
     }
 }
 
-fn values(table: &Table, name: &str) -> Vec<f64> {
+pub(super) fn values(table: &Table, name: &str) -> Vec<f64> {
     table.get(name).unwrap_or_else(|| panic!("{name}")).to_f64()
 }
 
-fn vectors(table: &Table, names: [&str; 3]) -> Vec<Vec3> {
+pub(super) fn vectors(table: &Table, names: [&str; 3]) -> Vec<Vec3> {
     let [x, y, z] = names.map(|name| values(table, name));
     (0..x.len()).map(|k| Vec3::new(x[k], y[k], z[k])).collect()
 }
 
-fn near(on: &str, found: &[f64], wanted: &[f64], tolerance: f64) {
+pub(super) fn near(on: &str, found: &[f64], wanted: &[f64], tolerance: f64) {
     assert_eq!(found.len(), wanted.len(), "{on}: {found:?} for {wanted:?}");
     for (a, b) in found.iter().zip(wanted) {
         assert!((a - b).abs() <= tolerance || a.is_nan() && b.is_nan(), "{on}: {found:?} for {wanted:?}");

@@ -96,6 +96,9 @@ pub unsafe fn sort_class(t: &DeviceTables, _: u32, row: usize) {
     unsafe {
         let counted = run(l.class_cursors, row);
         let first = (counted.start as u32).wrapping_add(*l.class_slots.at(class)) as usize;
+        if first as u64 + counted.len() as u64 > u64::from(t.slot_count) {
+            return t.beyond(0);
+        }
         let partner = |k: usize| t.contacts.partner.at::<u32>(first + k);
         if is_image {
             let image = |k: usize| l.image.at::<u8>(first + k);

@@ -12,6 +12,8 @@ pub struct Sorted<'a> {
     pub keys: Address,
     /// First point of each cell, and one more; 0 where most cells are empty: it is found by bisection.
     pub starts: Address,
+    /// How many cells have a first point.
+    pub cells: usize,
     /// How many.
     pub count: usize,
 }
@@ -31,12 +33,12 @@ impl Sorted<'_> {
     /// The table is in place, and there is such a cell, or one less.
     #[inline(always)]
     unsafe fn first(&self, key: u64) -> usize {
-        if self.starts == Address::default() {
+        if self.starts == Address::default() || key > self.cells as u64 {
             // SAFETY: by contract.
             return unsafe { self.bisect(key) };
         }
-        // SAFETY: by contract.
-        unsafe { *self.starts.at::<u32>(key as usize) as usize }
+        // SAFETY: by contract. No point is beyond the last, whatever the table says.
+        unsafe { (*self.starts.at::<u32>(key as usize) as usize).min(self.count) }
     }
 
     /// The same by bisection.

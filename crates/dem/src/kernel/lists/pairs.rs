@@ -20,7 +20,8 @@ fn is_wide(t: &DeviceTables, reach: f64) -> bool {
 #[inline(always)]
 fn particles(t: &DeviceTables) -> Sorted<'_> {
     let l = &t.lists;
-    Sorted { lattice: &l.lattice, keys: l.keys, starts: l.cell_starts, count: t.particle_count as usize }
+    let (starts, cells) = (l.cell_starts, l.cells as usize);
+    Sorted { lattice: &l.lattice, keys: l.keys, starts, cells, count: t.particle_count as usize }
 }
 
 /// First particle of a cell.
@@ -51,7 +52,7 @@ unsafe fn kind_of(t: &DeviceTables, images: bool, i: usize, j: usize) -> &Device
     }
 }
 
-/// Counts a contact of particle `i` among those of the particle and class number `row`, or has its slot.
+/// Counts a contact of particle `i` among those of the particle and class number `row`, or has its slot; none where that is beyond all slots.
 ///
 /// # Safety
 /// Tables are in place.
@@ -60,7 +61,15 @@ unsafe fn place(t: &DeviceTables, mode: u32, row: usize, class: usize) -> Option
     // SAFETY: by contract; cursors stand after the first number of their table.
     unsafe {
         let at = add(t.lists.class_cursors.at(1 + row), 1);
-        (mode == WRITE).then(|| at.wrapping_add(*t.lists.class_slots.at(class)) as usize)
+        if mode != WRITE {
+            return None;
+        }
+        let slot = at.wrapping_add(*t.lists.class_slots.at(class));
+        if slot >= t.slot_count {
+            t.beyond(0);
+            return None;
+        }
+        Some(slot as usize)
     }
 }
 
@@ -263,7 +272,7 @@ pub unsafe fn wall_parts(t: &DeviceTables, mode: u32, k: usize) {
                     continue;
                 }
                 let (lattice, keys, starts) = (&wall.lattice, wall.keys, Address::default());
-                let spheres = Sorted { lattice, keys, starts, count: wall.parts as usize };
+                let spheres = Sorted { lattice, keys, starts, cells: 0, count: wall.parts as usize };
                 spheres.near(&p, reach + wall.largest, 0, |part| {
                     let sphere: Row4 = *wall.spheres.at(part);
                     let close = reach + sphere[3];
