@@ -95,7 +95,8 @@ fn the_ledger_stops_a_run_whose_step_makes_energy() {
     let coarse = ["time.safety=0.95", "time.contacts=sampled"];
     let stopped = run(&coarse);
     assert!(stopped.code == 3 && stopped.stderr.contains("guards.energy"), "{}", stopped.stderr);
-    for more in ["guards.energy=100", "output.energy=false", "time.contacts=averaged"] {
+    for more in ["guards.energy=100", "guards.energy=false", "output.energy=false", "time.contacts=averaged"]
+    {
         let done = run(&[&coarse[..], &[more]].concat());
         assert!(done.code == 0, "{more}: {}", done.stderr);
     }

@@ -34,7 +34,7 @@ impl Check<'_> {
         m.drag.as_ref().map_or(Ok(()), |d| self.drag(d))?;
         self.positive("guards.overlap", m.guards.overlap, "")?;
         self.positive("guards.motion", m.guards.motion, "")?;
-        self.positive("guards.energy", m.guards.energy, "")?;
+        self.positive("guards.energy", m.guards.energy_share(), "")?;
         self.within("guards.steps", m.guards.steps.unwrap_or(1.0), 1.0, EXACT, "")?;
         self.within("guards.frames", m.guards.frames.unwrap_or(1.0), 1.0, EXACT, "")?;
         self.within("first_id", f64::from(m.first_id), 0.0, 4e9, "")?;

@@ -220,6 +220,25 @@ pub enum BackThroughZone {
     Stays,
 }
 
+/// What the time step may make of energy: a share, or `false`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EnergyGuard {
+    /// At most this share stops no run [–].
+    Share(f64),
+    /// Nothing stops a run.
+    Off,
+}
+
+impl Guards {
+    /// The share that the scene gives; `None` without one, and where the guard is off.
+    pub fn energy_share(&self) -> Option<f64> {
+        match self.energy {
+            Some(EnergyGuard::Share(share)) => Some(share),
+            Some(EnergyGuard::Off) | None => None,
+        }
+    }
+}
+
 /// `[guards]`
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -233,8 +252,7 @@ pub struct Guards {
     /// What becomes of a grain of an [[inlet]] that goes back through all of its zone; absent: it stops the run.
     pub zones: Option<BackThroughZone>,
     /// Largest energy that the time step may make, as a share of the energy that was exchanged and moves [–]; absent: [`Sampling::most_energy`] in a run that keeps the ledger anyway.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub energy: Option<f64>,
+    pub energy: Option<EnergyGuard>,
     /// Most steps of a run; absent: [`MOST_STEPS`].
     pub steps: Option<f64>,
     /// Most frames, and most checkpoints, of a run; absent: [`MOST_FRAMES`].

@@ -1,6 +1,6 @@
 //! Values that may be written in two ways: a share, a word or a truth value, one table or a list of them.
 
-use super::{Accuracy, BackThroughZone};
+use super::{Accuracy, BackThroughZone, EnergyGuard};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
 use std::fmt;
@@ -60,6 +60,39 @@ impl Visitor<'_> for Back {
             "remove" => Ok(BackThroughZone::IsRemoved),
             _ => Err(E::invalid_value(Unexpected::Str(v), &self)),
         }
+    }
+}
+
+impl<'de> Deserialize<'de> for EnergyGuard {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<EnergyGuard, D::Error> {
+        from.deserialize_any(ShareOrOff)
+    }
+}
+
+struct ShareOrOff;
+
+impl Visitor<'_> for ShareOrOff {
+    type Value = EnergyGuard;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a share such as 0.02 or \"2%\", or false")
+    }
+
+    fn visit_bool<E: Error>(self, guards: bool) -> Result<EnergyGuard, E> {
+        if guards { Err(E::invalid_value(Unexpected::Bool(true), &self)) } else { Ok(EnergyGuard::Off) }
+    }
+
+    fn visit_f64<E: Error>(self, v: f64) -> Result<EnergyGuard, E> {
+        Ok(EnergyGuard::Share(v))
+    }
+
+    fn visit_i64<E: Error>(self, v: i64) -> Result<EnergyGuard, E> {
+        self.visit_f64(v as f64)
+    }
+
+    fn visit_str<E: Error>(self, v: &str) -> Result<EnergyGuard, E> {
+        let share = geom::units::parse(v, "").map(EnergyGuard::Share);
+        share.map_err(|_| E::invalid_value(Unexpected::Str(v), &self))
     }
 }
 

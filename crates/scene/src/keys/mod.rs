@@ -80,12 +80,16 @@ pub struct SceneKeys {
 impl SceneKeys {
     /// Whether the run keeps the energy ledger. Contacts are written with the work of sliding, which the ledger knows.
     pub fn keeps_ledger(&self) -> bool {
-        self.output.energy || self.output.contacts || self.guards.energy.is_some()
+        self.output.energy || self.output.contacts || self.guards.energy_share().is_some()
     }
 
-    /// Share of the energy exchanged that the time step may make [–]; none without the ledger.
+    /// Share of the energy exchanged that the time step may make [–]; none without the ledger, and where the guard is off.
     pub fn energy_limit(&self) -> Option<f64> {
-        self.guards.energy.or(self.keeps_ledger().then_some(self.time.contacts.most_energy()))
+        match self.guards.energy {
+            Some(EnergyGuard::Share(share)) => Some(share),
+            Some(EnergyGuard::Off) => None,
+            None => self.keeps_ledger().then_some(self.time.contacts.most_energy()),
+        }
     }
 }
 

@@ -109,6 +109,7 @@ low = [0, 0, 0]
 high = [1, 1, 1]
 [guards]
 zones = false
+energy = false
 [sleep]
 speed = 1e-3
 time = 0.01
