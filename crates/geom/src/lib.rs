@@ -8,8 +8,9 @@ extern crate core as std;
 
 #[cfg(not(target_arch = "nvptx64"))]
 mod boxes;
-#[cfg(not(target_arch = "nvptx64"))]
 pub mod cells;
+#[cfg(not(target_arch = "nvptx64"))]
+pub mod digits;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod grid;
 #[cfg(not(target_arch = "nvptx64"))]

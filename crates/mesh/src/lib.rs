@@ -78,6 +78,28 @@ pub struct Contents {
     pub short: bool,
 }
 
+impl Contents {
+    /// What 4-byte numbers have lost far from the origin, and what helps.
+    pub fn lost_digits(&self) -> Option<String> {
+        let lost = self.short.then(|| geom::digits::lost(&self.mesh.vertices)).flatten()?;
+        Some(format!(
+            "{lost}: export the drawing with all digits (OBJ, ASCII STL, PLY with double), or with its origin near the equipment"
+        ))
+    }
+
+    /// Its surface, and what the user is to know of the file.
+    ///
+    /// # Errors
+    /// Vertices without a face.
+    pub fn surface(self) -> Result<(TriMesh, Vec<String>), MeshFileError> {
+        if self.mesh.faces.is_empty() {
+            return Err(MeshError::Empty.into());
+        }
+        let warnings = self.notes.iter().cloned().chain(self.lost_digits()).collect();
+        Ok((self.mesh, warnings))
+    }
+}
+
 impl From<TriMesh> for Contents {
     fn from(mesh: TriMesh) -> Contents {
         Contents { mesh, ..Contents::default() }
@@ -97,11 +119,7 @@ const FORMATS: [Format; 4] = [
 /// # Errors
 /// Content that is not a mesh, or is truncated, with its place; a mesh without a face.
 pub fn from_bytes(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
-    let mesh = contents(bytes)?.mesh;
-    if mesh.faces.is_empty() {
-        return Err(MeshError::Empty.into());
-    }
-    Ok(mesh)
+    Ok(contents(bytes)?.surface()?.0)
 }
 
 /// Reads what a file in memory holds, also if it is vertices without a face.
