@@ -18,7 +18,7 @@ mod triangles;
 pub use ply::{axes as ply_axes, write_ply};
 
 use geom::mesh::{MeshError, TriMesh};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use stream::ply::PlyError;
 use thiserror::Error;
 
@@ -162,6 +162,19 @@ pub fn load(file: &str) -> Result<TriMesh, String> {
         let cause = std::error::Error::source(&e).map(|c| format!(": {c}")).unwrap_or_default();
         format!("{file}: {e}{cause}")
     })
+}
+
+/// Files that shapes name, relative to a folder.
+pub struct Files<'a>(pub &'a Path);
+
+impl geom::shape::ShapeFiles for Files<'_> {
+    fn path(&self, file: &str) -> PathBuf {
+        self.0.join(file)
+    }
+
+    fn mesh(&self, file: &str) -> Result<TriMesh, String> {
+        load(&self.path(file).display().to_string())
+    }
 }
 
 /// Lines of text, lossy, with their numbers from 1; line ends may be LF, CRLF or CR. A byte order mark belongs to none of them.
