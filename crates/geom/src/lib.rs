@@ -8,6 +8,7 @@ extern crate core as std;
 
 #[cfg(not(target_arch = "nvptx64"))]
 mod boxes;
+#[cfg(not(target_arch = "nvptx64"))]
 pub mod cells;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod digits;
