@@ -116,10 +116,13 @@ fn read_by(argument: &Arg, matches: &ArgMatches) -> Vec<PathBuf> {
         || matches!(matches.try_get_many::<Source>(id), Ok(Some(_)))
         || argument.get_value_names().is_some_and(|names| names.iter().any(|name| name.contains("FILE")));
     let path = |value: &std::ffi::OsStr| match whole {
-        true => Some(PathBuf::from(value)),
-        false => geom::shape::file_of(value.to_str()?.trim()).map(PathBuf::from),
+        true => vec![PathBuf::from(value)],
+        false => {
+            let text = value.to_str().unwrap_or_default().trim();
+            geom::shape::files_of(text).into_iter().map(PathBuf::from).collect()
+        }
     };
-    values.filter_map(path).collect()
+    values.flat_map(path).collect()
 }
 
 /// The one name of a file; devices and pipes are not replaced by an output and have none.

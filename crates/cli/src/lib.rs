@@ -47,7 +47,7 @@ pub use input::{Input, Lengths, Source};
 pub use length::length;
 pub use output::{CloudOutput, Output, OutputStream};
 pub use part::{Keep, NotRenamed, is_part, is_written, parts_of};
-pub use placing::Placing;
+pub use placing::{Placing, read_mesh};
 pub use progress::Progress;
 pub use report::Report;
 pub use run::{Common, Seed, arguments, provenance, quiet, run, warn};

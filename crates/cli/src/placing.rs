@@ -1,9 +1,11 @@
 //! Coordinates of a file that are turned and shifted as it is read: `--transform`.
 
 use crate::exit::usage;
+use crate::input::Lengths;
 use cloud::Cloud;
 use geom::Transform;
 use geom::mesh::TriMesh;
+use mesh::MeshFileError;
 use std::path::Path;
 
 /// How far a matrix of few digits may put a point from where it belongs [m], without a warning.
@@ -34,6 +36,25 @@ fn matrix(text: &str) -> Result<Matrix, String> {
     Ok(Matrix { transform, file: Some((text.to_owned(), stream::sha256(&bytes))) })
 }
 
+/// Reads a mesh of the command line: in metres, and where `--transform` puts it. Warns of what of the file is left out, and of digits that it has lost.
+///
+/// # Errors
+/// Content that is not a mesh, or is truncated, with its place.
+pub fn read_mesh(
+    bytes: &[u8],
+    name: &str,
+    lengths: &Lengths,
+    placing: &Placing,
+) -> Result<TriMesh, MeshFileError> {
+    let (mut mesh, warnings) = mesh::contents(bytes)?.surface()?;
+    warnings.iter().for_each(|warning| crate::warn(&format!("{name}: {warning}")));
+    if let Some(factor) = lengths.factor().filter(|factor| *factor != 1.0) {
+        mesh.scale(factor);
+    }
+    placing.mesh(&mut mesh, name);
+    Ok(mesh)
+}
+
 impl Placing {
     /// The matrix, if one was given.
     pub fn transform(&self) -> Option<&Transform> {
@@ -57,7 +78,7 @@ impl Placing {
     }
 
     /// Moves a mesh.
-    pub fn mesh(&self, mesh: &mut TriMesh, name: &str) {
+    fn mesh(&self, mesh: &mut TriMesh, name: &str) {
         let Some(by) = self.transform() else { return };
         self.warn_of_digits(&mesh.vertices, name);
         mesh.transform(by);

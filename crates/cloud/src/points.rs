@@ -1,6 +1,5 @@
 //! The cloud: positions as `f64`, and every other property as it came.
 
-use crate::units::UnitWarning;
 use geom::Vec3;
 use stream::Table;
 use thiserror::Error;
@@ -38,7 +37,7 @@ pub enum ReadWarning {
     #[error("{0}")]
     LeftOut(String),
     #[error("{0}")]
-    Digits(UnitWarning),
+    Digits(String),
     #[error(
         "the coordinate reference system counts in '{}' of {} m, and everything here is in metres: read it with --scale {}, or with \
          --scale 1 if it is in metres all the same", .0.name, .0.metres, .0.metres

@@ -95,7 +95,7 @@ pub fn add_regions(rules: &mut Rules, text: &str, folder: &Path) -> Result<usize
         if file.region[..i].iter().any(|r| r.name == region.name) {
             return Err(RegionsError::Twice(region.name.clone()));
         }
-        let shape = Shape::parse(&beside(&region.shape, folder), &mesh::load);
+        let shape = Shape::parse(&region.shape, &mesh::Files(folder));
         let shape = shape.map_err(|source| RegionsError::Shape { name: region.name.clone(), source })?;
         match region.action {
             Action::Outer if shape.outside => return Err(RegionsError::OuterOutside(region.name.clone())),
@@ -112,15 +112,6 @@ pub fn add_regions(rules: &mut Rules, text: &str, folder: &Path) -> Result<usize
 /// As [`Shape::parse`].
 pub fn shape(text: &str) -> Result<Shape, ShapeError> {
     Shape::parse(text, &mesh::load)
-}
-
-/// A shape's file, when it has a relative one, in `folder`.
-fn beside(shape: &str, folder: &Path) -> String {
-    let (outside, body) = shape.strip_prefix('!').map_or(("", shape), |rest| ("!", rest));
-    match body.split_once(':') {
-        Some((kind @ ("prism" | "mesh"), file)) => format!("{outside}{kind}:{}", folder.join(file).display()),
-        _ => shape.to_owned(),
-    }
 }
 
 #[cfg(test)]
@@ -172,7 +163,13 @@ mod tests {
 
     #[test]
     fn files_are_sought_beside_the_regions() {
-        assert_eq!(beside("!prism:a.json", Path::new("/plant")), "!prism:/plant/a.json");
-        assert_eq!(beside("mesh:/x/a.ply", Path::new("/plant")), "mesh:/x/a.ply");
+        let region = |shape: &str| format!("[[region]]\nname = 'a'\nshape = '{shape}'\naction = 'keep'");
+        for (shape, part) in [
+            ("!prism:a.json", "'!prism:a.json': cannot read a.json"),
+            ("mesh:/x/a.ply", "cannot read the mesh"),
+        ] {
+            let error = add_regions(&mut Rules::default(), &region(shape), Path::new("/plant")).unwrap_err();
+            assert!(error.to_string().contains(part), "{error}");
+        }
     }
 }

@@ -4,18 +4,13 @@ use crate::Cloud;
 use crate::places::Places;
 use crate::points::unit_is_known;
 use geom::Vec3;
+use geom::digits::{Extent, LostDigits, SOME, rough};
 use std::fmt;
 
-/// Points that stand for all.
-const SOME: usize = 4096;
-/// Share of the points at either end of an axis that does not count: far outliers.
-const ENDS: f64 = 0.05;
 /// Equipment is hardly wider [m] …
 const WIDE: f64 = 50.0;
 /// … with points as far apart [m].
 const SPARSE: f64 = 0.1;
-/// Share of the spacing that a coordinate may be off.
-const EXACT: f64 = 0.01;
 
 /// Points in one place that are no chance: so many, and such a share of all.
 pub(crate) const MANY: (usize, f64) = (20, 0.01);
@@ -30,15 +25,8 @@ pub enum UnitWarning {
         /// Mean distance of points [m].
         spacing: f64,
     },
-    /// Coordinates in 4-byte numbers that are only exact to a share of the spacing that can be seen.
-    Short {
-        /// Largest coordinate [m].
-        largest: f64,
-        /// Distance between neighbouring numbers there [m].
-        step: f64,
-        /// Mean distance of points [m].
-        spacing: f64,
-    },
+    /// Coordinates in 4-byte numbers have lost digits.
+    Short(LostDigits),
     /// Many points lie in one place.
     Crowd {
         /// Share of all [–].
@@ -57,8 +45,6 @@ impl UnitWarning {
 
 impl fmt::Display for UnitWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Rough numbers: they are estimates.
-        let rough = |value: f64| geom::Shown(format!("{value:.1e}").parse().unwrap_or(value));
         match self {
             UnitWarning::Millimetres { width, spacing } => write!(
                 f,
@@ -67,13 +53,9 @@ impl fmt::Display for UnitWarning {
                 rough(*width),
                 rough(*spacing)
             ),
-            UnitWarning::Short { largest, step, spacing } => write!(
+            UnitWarning::Short(lost) => write!(
                 f,
-                "coordinates up to {} m stand in 4-byte numbers, which are {} m apart there, and the points are {} m apart: \
-                 export the scan with 8-byte numbers (double), or with its origin near the equipment",
-                rough(*largest),
-                rough(*step),
-                rough(*spacing)
+                "{lost}: export the scan with 8-byte numbers (double), or with its origin near the equipment"
             ),
             UnitWarning::Crowd { share, place: [x, y, z] } => write!(
                 f,
@@ -125,15 +107,14 @@ impl Survey {
 }
 
 fn look(some: &[Vec3], count: f64, double: bool) -> Vec<UnitWarning> {
-    let Some((sides, largest)) = survey(some) else { return Vec::new() };
-    let spacing = (sides[2] * sides[1].max(sides[2] / count) / count).sqrt();
+    let Some(extent) = Extent::of(some) else { return Vec::new() };
+    let (width, spacing) = (extent.sides[2], extent.spacing(count));
     let mut found = Vec::new();
-    if sides[2] > WIDE && spacing > SPARSE {
-        found.push(UnitWarning::Millimetres { width: sides[2], spacing });
+    if width > WIDE && spacing > SPARSE {
+        found.push(UnitWarning::Millimetres { width, spacing });
     }
-    let step = largest * f64::from(f32::EPSILON);
-    if !double && step > EXACT * spacing && spacing > 0.0 {
-        found.push(UnitWarning::Short { largest, step, spacing });
+    if !double {
+        found.extend(extent.lost_digits(count).map(UnitWarning::Short));
     }
     found
 }
@@ -142,24 +123,6 @@ fn look(some: &[Vec3], count: f64, double: bool) -> Vec<UnitWarning> {
 fn crowd(some: &[Vec3]) -> Option<UnitWarning> {
     let found = Places::of(some)?.doubtful()?;
     Some(UnitWarning::Crowd { share: found.points as f64 / some.len() as f64, place: found.place })
-}
-
-/// Lengths of the box around most points, ascending, and the largest coordinate among these [m].
-fn survey(some: &[Vec3]) -> Option<([f64; 3], f64)> {
-    if some.len() < 10 {
-        return None;
-    }
-    let ends = |axis: usize| {
-        let mut values: Vec<f64> = some.iter().map(|p| p[axis]).collect();
-        values.sort_by(f64::total_cmp);
-        let off = (ENDS * values.len() as f64) as usize;
-        (values[off], values[values.len() - 1 - off])
-    };
-    let ends = [0, 1, 2].map(ends);
-    let mut sides = ends.map(|(low, high)| high - low);
-    sides.sort_by(f64::total_cmp);
-    let largest = ends.iter().map(|(low, high)| low.abs().max(high.abs())).fold(0.0, f64::max);
-    Some((sides, largest))
 }
 
 #[cfg(test)]

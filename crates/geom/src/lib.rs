@@ -11,6 +11,8 @@ mod boxes;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod cells;
 #[cfg(not(target_arch = "nvptx64"))]
+pub mod digits;
+#[cfg(not(target_arch = "nvptx64"))]
 pub mod grid;
 #[cfg(not(target_arch = "nvptx64"))]
 pub mod hull;

@@ -3,22 +3,21 @@
 //! ```text
 //! box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r
 //! cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json        ! in front: outside
-//! mesh:FILE | mesh:FILE,units=mm | mesh:FILE,scale=0.001
+//! mesh:FILE | mesh:FILE,units=mm | mesh:FILE,scale=0.001 | mesh:FILE,transform=MATRIX.txt
 //! ```
 
 use crate::Vec3;
-use crate::mesh::{Inside, MeshError, TriMesh};
+use crate::mesh::{Inside, MeshError};
 use crate::numbers::{NumbersError, numbers};
 use crate::plane::{Plane, PlaneError};
 use crate::prism::{Prism, PrismError};
-use crate::{number, units};
-use std::fs::File;
-use std::io::Read;
+use crate::transform::TransformError;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// The file of a prism is read so far [B].
-const PRISM: u64 = 64 << 20;
+mod files;
+
+pub use files::{ShapeFiles, files_of, with_files};
 
 /// A part of space: a solid, or all that is outside of it. Its surface belongs to the solid.
 #[derive(Debug, Clone)]
@@ -54,7 +53,7 @@ pub enum Solid {
 pub enum ShapeError {
     #[error(
         "'{0}' is not a shape: use box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r, cylinder:x0,y0,z0,x1,y1,z1,r, \
-         cone:x0,y0,z0,x1,y1,z1,r0,r1, halfspace:px,py,pz,nx,ny,nz, prism:FILE.json or mesh:FILE (with its unit: mesh:FILE,units=mm); a ! before a shape means its outside"
+         cone:x0,y0,z0,x1,y1,z1,r0,r1, halfspace:px,py,pz,nx,ny,nz, prism:FILE.json or mesh:FILE (with its unit or a matrix: mesh:FILE,units=mm,transform=MATRIX.txt); a ! before a shape means its outside"
     )]
     Kind(String),
     #[error("shape '{text}': {source}")]
@@ -65,12 +64,16 @@ pub enum ShapeError {
     Radius { text: String, radius: f64 },
     #[error("shape '{text}': both ends of the axis are the same point")]
     NoAxis { text: String },
-    #[error("shape '{text}': cannot read the file: {source}")]
-    Read { text: String, source: std::io::Error },
     #[error("shape '{text}': {source}")]
     Prism { text: String, source: PrismError },
     #[error("shape '{text}': {why}: write units=mm, cm, m, in or ft, or scale=FACTOR")]
     Lengths { text: String, why: String },
+    #[error("shape '{text}': transform: {source}")]
+    Transform { text: String, source: TransformError },
+    #[error(
+        "shape '{text}': {name}= is given a second time, or beside what does the same: give units= or scale=, and transform=, each once"
+    )]
+    Twice { text: String, name: String },
     #[error("shape '{text}': {why}")]
     Load { text: String, why: String },
     #[error("shape '{text}': {source}")]
@@ -84,33 +87,18 @@ impl Shape {
         p.x.is_finite() && p.y.is_finite() && p.z.is_finite() && self.solid.contains(p) != self.outside
     }
 
-    /// Reads a shape; `load` reads the file of a `mesh:`.
+    /// Reads a shape; `files` reads those that it names.
     ///
     /// # Errors
     /// Anything that is no shape, with the place in the text; files that cannot be read.
-    pub fn parse(text: &str, load: &dyn Fn(&str) -> Result<TriMesh, String>) -> Result<Shape, ShapeError> {
+    pub fn parse(text: &str, files: &dyn ShapeFiles) -> Result<Shape, ShapeError> {
         let (outside, body) = match text.strip_prefix('!') {
             Some(rest) => (true, rest),
             None => (false, text),
         };
         let Some((kind, rest)) = body.split_once(':') else { return Err(ShapeError::Kind(text.to_owned())) };
-        let solid = Solid::parse(&ShapeText { whole: text, kind, rest }, load)?;
+        let solid = Solid::parse(&ShapeText { whole: text, kind, rest }, files)?;
         Ok(Shape { solid, outside })
-    }
-}
-
-/// The file that a shape names, as text; `None` where it names none.
-pub fn file_of(text: &str) -> Option<&str> {
-    let (kind, rest) = text.strip_prefix('!').unwrap_or(text).split_once(':')?;
-    match kind {
-        "prism" => Some(rest),
-        "mesh" => match rest.rsplit_once(',') {
-            Some((file, option)) if option.starts_with("units=") || option.starts_with("scale=") => {
-                Some(file)
-            }
-            _ => Some(rest),
-        },
-        _ => None,
     }
 }
 
@@ -119,7 +107,7 @@ impl FromStr for Shape {
 
     /// As [`Shape::parse`], but without meshes.
     fn from_str(text: &str) -> Result<Shape, ShapeError> {
-        Shape::parse(text, &|_| Err("meshes cannot be read here: use another shape".into()))
+        Shape::parse(text, &|_: &str| Err("meshes cannot be read here: use another shape".into()))
     }
 }
 
@@ -146,19 +134,6 @@ impl ShapeText<'_> {
         if radius > 0.0 { Ok(radius) } else { Err(ShapeError::Radius { text: self.owned(), radius }) }
     }
 
-    /// The file of a mesh, and the factor that makes its lengths metres.
-    fn file_and_factor(&self) -> Result<(&str, f64), ShapeError> {
-        let wrong = |why: String| ShapeError::Lengths { text: self.owned(), why };
-        let Some((file, option)) = self.rest.rsplit_once(',') else { return Ok((self.rest, 1.0)) };
-        if let Some(unit) = option.strip_prefix("units=") {
-            return units::factor(unit, "m").map(|f| (file, f)).map_err(|e| wrong(e.to_string()));
-        }
-        match option.strip_prefix("scale=") {
-            Some(factor) => number::positive(factor).map(|f| (file, f)).map_err(|e| wrong(e.to_string())),
-            None => Ok((self.rest, 1.0)),
-        }
-    }
-
     /// The radii at both ends of a cone: it may end in a point, but not in two.
     fn cone_radii(&self, radii: [f64; 2]) -> Result<[f64; 2], ShapeError> {
         self.positive(radii[0].max(radii[1]))?;
@@ -175,10 +150,7 @@ impl ShapeText<'_> {
 }
 
 impl Solid {
-    fn parse(
-        text: &ShapeText<'_>,
-        load: &dyn Fn(&str) -> Result<TriMesh, String>,
-    ) -> Result<Solid, ShapeError> {
+    fn parse(text: &ShapeText<'_>, files: &dyn ShapeFiles) -> Result<Solid, ShapeError> {
         Ok(match text.kind {
             "box" => {
                 let [x0, y0, z0, x1, y1, z1] = text.numbers()?;
@@ -204,8 +176,8 @@ impl Solid {
                 let plane = Plane::new(Vec3::new(px, py, pz), Vec3::new(nx, ny, nz));
                 Solid::Halfspace(plane.map_err(|source| ShapeError::Plane { text: text.owned(), source })?)
             }
-            "prism" => Solid::Prism(read_prism(text)?),
-            "mesh" => Solid::Mesh(load_mesh(text, load)?),
+            "prism" => Solid::Prism(read_prism(text, files)?),
+            "mesh" => Solid::Mesh(load_mesh(text, files)?),
             _ => return Err(ShapeError::Kind(text.owned())),
         })
     }
@@ -233,22 +205,15 @@ fn is_in_cone(p: &Vec3, start: &Vec3, end: &Vec3, [r0, r1]: [f64; 2]) -> bool {
     (0.0..=1.0).contains(&share) && (from - axis * share).norm_squared() <= radius * radius
 }
 
-fn read_prism(text: &ShapeText<'_>) -> Result<Prism, ShapeError> {
-    let mut json = String::new();
-    let read = |file: File| file.take(PRISM).read_to_string(&mut json);
-    File::open(text.rest).and_then(read).map_err(|source| ShapeError::Read { text: text.owned(), source })?;
+fn read_prism(text: &ShapeText<'_>, files: &dyn ShapeFiles) -> Result<Prism, ShapeError> {
+    let load = |why| ShapeError::Load { text: text.owned(), why };
+    let json = String::from_utf8(files::bytes(text.rest, files).map_err(load)?)
+        .map_err(|_| load(format!("{} is no text: give the JSON of a prism", text.rest)))?;
     Prism::from_json(&json).map_err(|source| ShapeError::Prism { text: text.owned(), source })
 }
 
-fn load_mesh(
-    text: &ShapeText<'_>,
-    load: &dyn Fn(&str) -> Result<TriMesh, String>,
-) -> Result<Inside, ShapeError> {
-    let (file, factor) = text.file_and_factor()?;
-    let mut mesh = load(file).map_err(|why| ShapeError::Load { text: text.owned(), why })?;
-    if factor != 1.0 {
-        mesh.scale(factor);
-    }
+fn load_mesh(text: &ShapeText<'_>, files: &dyn ShapeFiles) -> Result<Inside, ShapeError> {
+    let mesh = files::mesh(text, files)?;
     Inside::new(&mesh).map_err(|source| ShapeError::Mesh { text: text.owned(), source })
 }
 
@@ -282,12 +247,10 @@ mod tests {
 
     #[test]
     fn a_mesh_comes_from_the_loader() {
-        let load = |_: &str| Ok(cuboid(Vec3::zeros(), Vec3::repeat(1.0)));
+        let load = |_: &str| Ok::<_, String>(cuboid(Vec3::zeros(), Vec3::repeat(1.0)));
         let shape = Shape::parse("!mesh:x.ply", &load).unwrap();
         assert!(shape.contains(&Vec3::repeat(2.0)) && !shape.contains(&Vec3::repeat(0.5)));
         assert!("mesh:x.ply".parse::<Shape>().is_err());
-        let files = ["!mesh:x.ply", "mesh:a,b.stl,units=mm", "prism:p.json", "box:0,0,0,1,1,1"].map(file_of);
-        assert_eq!(files, [Some("x.ply"), Some("a,b.stl"), Some("p.json"), None]);
         for (text, size) in [("units=mm", 1e-3), ("units=cm", 1e-2), ("scale=2", 2.0)] {
             let shape = Shape::parse(&format!("mesh:a,b.stl,{text}"), &load).unwrap();
             assert!(shape.contains(&Vec3::repeat(0.9 * size)) && !shape.contains(&Vec3::repeat(1.1 * size)));
@@ -295,6 +258,60 @@ mod tests {
         for text in ["units=kg", "scale=0", "scale=x"] {
             let message = Shape::parse(&format!("mesh:a.stl,{text}"), &load).unwrap_err().to_string();
             assert!(message.contains("write units=mm"), "{message}");
+        }
+    }
+
+    #[test]
+    fn the_files_of_a_shape_are_known_and_can_be_renamed() {
+        for (text, files, renamed) in [
+            ("!mesh:x.ply", vec!["x.ply"], "!mesh:in/x.ply"),
+            ("mesh:a,b.stl,units=mm", vec!["a,b.stl"], "mesh:in/a,b.stl,units=mm"),
+            (
+                "mesh:x,transform=a,b.txt,scale=2",
+                vec!["x", "a,b.txt"],
+                "mesh:in/x,transform=in/a,b.txt,scale=2",
+            ),
+            ("mesh:x,transform=1,0,0,0,0,1", vec!["x"], "mesh:in/x,transform=1,0,0,0,0,1"),
+            ("prism:p.json", vec!["p.json"], "prism:in/p.json"),
+            ("box:0,0,0,1,1,1", vec![], "box:0,0,0,1,1,1"),
+            ("C:x", vec![], "C:x"),
+        ] {
+            assert_eq!(files_of(text), files, "{text}");
+            assert_eq!(with_files(text, |file| format!("in/{file}")), renamed);
+        }
+    }
+
+    /// First the unit, then the matrix: x̂ ↦ ŷ ↦ −x̂, then (5 849 000, 20, 30).
+    #[test]
+    fn a_matrix_puts_a_mesh_elsewhere() {
+        let load = |_: &str| Ok::<_, String>(cuboid(Vec3::zeros(), Vec3::new(1000.0, 2000.0, 3000.0)));
+        let matrix = "0,-1,0,5849000,1,0,0,20,0,0,1,30,0,0,0,1";
+        for text in [
+            format!("mesh:a.stl,units=mm,transform={matrix}"),
+            format!("mesh:a.stl,transform={matrix},scale=0.001"),
+            format!("mesh:a.stl,transform={},units=mm", matrix.replace(',', " ")),
+        ] {
+            let shape = Shape::parse(&text, &load).unwrap();
+            for (at, inside) in [
+                ([-1.9999, 0.0001, 0.0001], true),
+                ([-0.0001, 0.9999, 2.9999], true),
+                ([-2.0001, 0.5, 1.0], false),
+                ([-1.0, 1.0001, 1.0], false),
+                ([0.5, 0.5, 1.0], false),
+            ] {
+                let p = Vec3::new(5_849_000.0, 20.0, 30.0) + Vec3::from(at);
+                assert_eq!(shape.contains(&p), inside, "{text}: {p}");
+            }
+        }
+        for (options, part) in [
+            ("transform=1,0,0", "3 numbers where a matrix has 16"),
+            ("transform=/nowhere.txt", "cannot read /nowhere.txt"),
+            ("transform=-1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1", "the matrix mirrors"),
+            ("units=mm,scale=2", "scale= is given a second time"),
+            ("units=mm,units=mm", "units= is given a second time"),
+        ] {
+            let message = Shape::parse(&format!("mesh:a.stl,{options}"), &load).unwrap_err().to_string();
+            assert!(message.contains(part), "{options}: {message}");
         }
     }
 

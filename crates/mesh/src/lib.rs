@@ -18,7 +18,7 @@ mod triangles;
 pub use ply::{axes as ply_axes, write_ply};
 
 use geom::mesh::{MeshError, TriMesh};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use stream::ply::PlyError;
 use thiserror::Error;
 
@@ -78,6 +78,28 @@ pub struct Contents {
     pub short: bool,
 }
 
+impl Contents {
+    /// What 4-byte numbers have lost far from the origin, and what helps.
+    pub fn lost_digits(&self) -> Option<String> {
+        let lost = self.short.then(|| geom::digits::lost(&self.mesh.vertices)).flatten()?;
+        Some(format!(
+            "{lost}: export the drawing with all digits (OBJ, ASCII STL, PLY with double), or with its origin near the equipment"
+        ))
+    }
+
+    /// Its surface, and what the user is to know of the file.
+    ///
+    /// # Errors
+    /// Vertices without a face.
+    pub fn surface(self) -> Result<(TriMesh, Vec<String>), MeshFileError> {
+        if self.mesh.faces.is_empty() {
+            return Err(MeshError::Empty.into());
+        }
+        let warnings = self.notes.iter().cloned().chain(self.lost_digits()).collect();
+        Ok((self.mesh, warnings))
+    }
+}
+
 impl From<TriMesh> for Contents {
     fn from(mesh: TriMesh) -> Contents {
         Contents { mesh, ..Contents::default() }
@@ -97,11 +119,7 @@ const FORMATS: [Format; 4] = [
 /// # Errors
 /// Content that is not a mesh, or is truncated, with its place; a mesh without a face.
 pub fn from_bytes(bytes: &[u8]) -> Result<TriMesh, MeshFileError> {
-    let mesh = contents(bytes)?.mesh;
-    if mesh.faces.is_empty() {
-        return Err(MeshError::Empty.into());
-    }
-    Ok(mesh)
+    Ok(contents(bytes)?.surface()?.0)
 }
 
 /// Reads what a file in memory holds, also if it is vertices without a face.
@@ -144,6 +162,19 @@ pub fn load(file: &str) -> Result<TriMesh, String> {
         let cause = std::error::Error::source(&e).map(|c| format!(": {c}")).unwrap_or_default();
         format!("{file}: {e}{cause}")
     })
+}
+
+/// Files that shapes name, relative to a folder.
+pub struct Files<'a>(pub &'a Path);
+
+impl geom::shape::ShapeFiles for Files<'_> {
+    fn path(&self, file: &str) -> PathBuf {
+        self.0.join(file)
+    }
+
+    fn mesh(&self, file: &str) -> Result<TriMesh, String> {
+        load(&self.path(file).display().to_string())
+    }
 }
 
 /// Lines of text, lossy, with their numbers from 1; line ends may be LF, CRLF or CR. A byte order mark belongs to none of them.

@@ -37,7 +37,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, MeshFileError> {
         }
         polygon::cut(&numbers, &vertices, &mut faces).map_err(|what| MeshFileError::Face { face, what })?;
     }
-    Ok(TriMesh::new(vertices, faces)?.into())
+    Ok(Contents { short: is_short(&ply), ..TriMesh::new(vertices, faces)?.into() })
 }
 
 /// The names of x, y and z: capitals only where no property has a small letter.
@@ -56,6 +56,12 @@ fn vertices(ply: &Ply) -> Result<Vec<Vec3>, MeshFileError> {
     let [x, y, z] = axes(|name| vertex.table.get(name).is_some());
     let (x, y, z) = (column(x)?, column(y)?, column(z)?);
     Ok((0..vertex.table.rows()).map(|i| Vec3::new(x.get(i), y.get(i), z.get(i))).collect())
+}
+
+/// Whether coordinates are 4-byte numbers.
+fn is_short(ply: &Ply) -> bool {
+    let x = ply.element("vertex").and_then(|v| ["x", "X"].iter().find_map(|name| v.table.get(name)));
+    matches!(x, Some(Values::F32(_)))
 }
 
 /// Writes a mesh as PLY, with double coordinates.

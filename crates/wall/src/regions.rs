@@ -131,7 +131,7 @@ impl Region {
     /// Where it is.
     fn place(&self, number: usize, load: wear::Load<TriMesh>) -> Result<RegionPlace, RegionsError> {
         let place = format!("region {number} '{}'", self.name);
-        let shape = self.shape.as_ref().map(|text| Shape::parse(text, load)).transpose();
+        let shape = self.shape.as_ref().map(|text| Shape::parse(text, &load)).transpose();
         let shape = shape.map_err(|source| RegionsError::Shape {
             number,
             name: self.name.clone(),

@@ -22,6 +22,7 @@ mod lab_test;
 mod layout;
 mod ledger_line;
 mod limits;
+mod lost_digits;
 mod measure;
 mod memory;
 mod outputs;

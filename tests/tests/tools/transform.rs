@@ -1,5 +1,7 @@
 //! `--transform`: geometry that is turned and shifted as it is read, in every tool that reads some.
 
+mod shapes;
+
 use geom::{Transform, Vec3};
 use grainpipe_tests::tools::{line, succeed, tool};
 use std::fs;
@@ -178,6 +180,50 @@ fn every_tool_that_reads_geometry_moves_it_and_reports_it() {
             assert!((there - middle(&after)).norm() < 5e-3, "{words}: {there} {}", middle(&after));
         }
     }
+}
+
+/// A library has the stones where the matrix puts them, with the same measures; a factor makes its stones and those of a packing larger.
+#[test]
+fn stones_of_a_library_and_a_packing_are_moved() {
+    let folder = inputs();
+    let f = folder.path();
+    let library = |words: &str, to: &str| {
+        let done = line(f, &format!("stone-library box.ply -o {to} {words}"));
+        assert!(done.code == 0, "{}", done.stderr);
+        assert_eq!(done.stderr.contains("coordinates moved by --transform"), !words.is_empty(), "{words}");
+        let mesh = cloud::read_mesh(&mut fs::File::open(f.join(to).join("rock_9_1.ply")).unwrap()).unwrap();
+        (mesh, fs::read_to_string(f.join(to).join("table.csv")).unwrap())
+    };
+    let (still, table) = library("", "still");
+    let (moved, again) = library("--transform quarter.txt", "moved");
+    let by = Transform::parse(QUARTER).unwrap();
+    assert!(still.vertices.iter().map(|v| by.point(v)).eq(moved.vertices.iter().copied()));
+    let measures = |table: &str| {
+        let row = table.lines().nth(1).unwrap().split(',').skip(5).map(|v| v.parse().unwrap());
+        row.collect::<Vec<f64>>()
+    };
+    let pairs: Vec<(f64, f64)> = measures(&table).into_iter().zip(measures(&again)).collect();
+    assert!(pairs.len() > 8 && pairs.iter().all(|(a, b)| (a - b).abs() < 1e-6 * a.abs()), "{pairs:?}");
+    let mut soil = "x,y,z,radius\n".to_owned();
+    for k in 0..8000 {
+        let [x, y, z] = [k % 20, k / 20 % 20, k / 400].map(|n| 0.1 * f64::from(n));
+        soil += &format!("{x},{y},{z},0.05\n");
+    }
+    fs::write(f.join("soil.csv"), soil).unwrap();
+    let pack = |words: &str, to: &str| {
+        let words = format!(
+            "stone-pack soil.csv still --content 0.02 --stone-density 2650 --soil-density 2650 --tolerance 0.9 --least-grains 1 \
+             --surfaces {to}.ply -o {to}-all.ply {words}"
+        );
+        let done = line(f, &words);
+        assert!(done.code == 0, "{}", done.stderr);
+        let mesh = cloud::read_mesh(&mut fs::File::open(f.join(format!("{to}.ply"))).unwrap()).unwrap();
+        (mesh.volume() / (mesh.faces.len() / 12) as f64, done.stderr)
+    };
+    let ((one, _), (eight, words)) =
+        (pack("", "p"), pack("--transform 2,0,0,7,0,2,0,8,0,0,2,9,0,0,0,1", "q"));
+    assert!((eight / one - 8.0).abs() < 1e-6, "{one} {eight}");
+    assert!(words.contains("coordinates moved by --transform, lengths times 2"), "{words}");
 }
 
 #[test]

@@ -19,7 +19,7 @@ use std::process::ExitCode;
 use stream::ply::{Blocks, Opened};
 
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
-    cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz (the side n points to) | prism:FILE.json | mesh:FILE | mesh:FILE,units=mm; \
+    cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz (the side n points to) | prism:FILE.json | mesh:FILE | mesh:FILE,units=mm | mesh:FILE,transform=MATRIX.txt; \
     a ! before a SHAPE means its outside. All lengths in metres.\n\n\
     With --check: exit 0 if there is nothing to remove, 3 if there is a part beyond the outer shape.\n\n\
     Examples:\n\

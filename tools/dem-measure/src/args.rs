@@ -8,7 +8,7 @@ use measure::profile::Turn;
 use std::path::PathBuf;
 
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
-    cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE | mesh:FILE,units=mm | all (where no volume \
+    cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE | mesh:FILE,units=mm | mesh:FILE,transform=MATRIX.txt | all (where no volume \
     is needed); a ! before a SHAPE means its outside. PLANE: px,py,pz,nx,ny,nz, with n in the direction of flow. \
     All lengths in metres.\n\
     docs/measure.md defines each measure and its columns.\n\n\

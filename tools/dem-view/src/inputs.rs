@@ -204,11 +204,7 @@ fn has_faces(bytes: &[u8]) -> bool {
 
 /// A mesh of triangles, at rest.
 fn drawing(bytes: &[u8], name: &str, args: &Args, show: &mut impl Show) -> anyhow::Result<Vec<Value>> {
-    let mut mesh = mesh::from_bytes(bytes)?;
-    if let Some(factor) = args.lengths.factor() {
-        mesh.scale(factor);
-    }
-    args.placing.mesh(&mut mesh, name);
+    let mesh = cli::read_mesh(bytes, name, &args.lengths, &args.placing)?;
     let faces = mesh.faces.len();
     let (shape, motion) = (SurfaceShape::Mesh(mesh), Motion::default());
     show.surface(WallSurface { name: name.to_owned(), shape, motion });

@@ -17,14 +17,10 @@ pub fn read(bytes: &[u8], args: &Args) -> anyhow::Result<Read> {
     // Text with nine numbers a line may be either.
     let mesh = match args.columns.given() {
         Some(_) => Err(MeshFileError::NoFaces),
-        None => mesh::from_bytes(bytes),
+        None => cli::read_mesh(bytes, &args.input.to_string(), &args.lengths, &args.placing),
     };
     match mesh {
-        Ok(mut mesh) => {
-            mesh.scale(factor);
-            args.placing.mesh(&mut mesh, "the mesh");
-            return Ok(Read::Mesh(mesh));
-        }
+        Ok(mesh) => return Ok(Read::Mesh(mesh)),
         Err(MeshFileError::NoFaces | MeshFileError::Unknown { .. } | MeshFileError::Ply(_)) => {}
         Err(error) => return Err(error.into()),
     }

@@ -84,9 +84,8 @@ fn main() -> ExitCode {
 
 fn stone_clump(args: Args) -> anyhow::Result<Report> {
     args.check_used()?;
-    let mut mesh = mesh::from_bytes(&args.mesh.read_all()?).with_context(|| args.mesh.to_string())?;
-    mesh.scale(args.lengths.factor().unwrap_or(1.0));
-    args.placing.mesh(&mut mesh, &args.mesh.to_string());
+    let (bytes, name) = (args.mesh.read_all()?, args.mesh.to_string());
+    let mesh = cli::read_mesh(&bytes, &name, &args.lengths, &args.placing).with_context(|| name.clone())?;
     let units_given = args.lengths.factor().is_some() || args.placing.scales();
     let stone = Stone::new(&mesh, units_given).with_context(|| args.mesh.to_string())?;
     if args.measures {

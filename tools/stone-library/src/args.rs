@@ -22,6 +22,8 @@ pub struct Args {
     pub meshes: Vec<PathBuf>,
     #[command(flatten)]
     pub lengths: cli::Lengths,
+    #[command(flatten)]
+    pub placing: cli::Placing,
     /// Folder for the library; it is made when it is missing
     #[arg(id = "output", short = 'o', long = "output", value_name = "DIR", required = true)]
     pub folder: PathBuf,

@@ -49,20 +49,21 @@ fn stone_library(args: Args) -> anyhow::Result<Report> {
         Shown(hi)
     );
     args.warn_of_sieves(lo, hi);
-    Ok(Report::new(summary)
+    let report = Report::new(summary)
         .with("scans", scans)
         .with("variants", variants)
         .with("names", names)
         .with("ranges", ranges)
-        .with("seed", args.seed.seed()))
+        .with("seed", args.seed.seed());
+    Ok(args.placing.report(report))
 }
 
 fn scanned(args: &Args, path: &std::path::Path) -> anyhow::Result<Entry> {
     let name = path.display().to_string();
     let bytes = stream::whole::file(path).with_context(|| format!("{name}: cannot open it"))?;
-    let mut mesh = mesh::from_bytes(&bytes).with_context(|| name.clone())?;
-    mesh.scale(args.lengths.factor().unwrap_or(1.0));
-    let stone = Stone::new(&mesh, args.lengths.factor().is_some()).with_context(|| name.clone())?;
+    let mesh = cli::read_mesh(&bytes, &name, &args.lengths, &args.placing).with_context(|| name.clone())?;
+    let units_given = args.lengths.factor().is_some() || args.placing.scales();
+    let stone = Stone::new(&mesh, units_given).with_context(|| name.clone())?;
     let source = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Ok(Entry { shape: ShapeMeasures::of(&stone), stone, kind: "scan", source })
 }

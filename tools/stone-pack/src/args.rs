@@ -51,9 +51,10 @@ pub struct Args {
     /// Box that stones lie in, box:x0,y0,z0,x1,y1,z1 [m] [default: that of the soil]
     #[arg(long, value_name = "SHAPE")]
     within: Option<Shape>,
-    /// Factor on the lengths of the meshes: 0.001 for millimetres
     #[command(flatten)]
     pub lengths: cli::Lengths,
+    #[command(flatten)]
+    pub placing: cli::Placing,
     /// Name of the stones' material, for the report and for --rigid [default: rock]
     #[arg(long, value_name = "NAME", value_parser = record::name::name)]
     material: Option<String>,

@@ -81,12 +81,15 @@ pub fn library(args: &Args) -> anyhow::Result<Library> {
     };
     let mut meshes = Vec::new();
     for path in paths.with_context(|| folder.display().to_string())?.into_iter().filter(mesh) {
-        let mut found = mesh::load(&path.display().to_string()).map_err(anyhow::Error::msg)?;
-        found.scale(args.lengths.factor().unwrap_or(1.0));
+        let file = path.display().to_string();
+        let bytes = stream::whole::file(&path).with_context(|| format!("{file}: cannot read the mesh"))?;
+        let found =
+            cli::read_mesh(&bytes, &file, &args.lengths, &args.placing).with_context(|| file.clone())?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         meshes.push((name, found));
     }
-    Library::new(meshes, args.lengths.factor().is_some()).with_context(|| folder.display().to_string())
+    let units_given = args.lengths.factor().is_some() || args.placing.scales();
+    Library::new(meshes, units_given).with_context(|| folder.display().to_string())
 }
 
 /// The classes of the grading, or one of all stones.

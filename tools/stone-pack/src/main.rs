@@ -49,7 +49,7 @@ fn stone_pack(args: Args) -> anyhow::Result<Report> {
     let summary = summary(&packing, &settings, grain_density);
     let names: Vec<String> =
         grains.materials.iter().map(|m| m.0.clone()).chain([args.material().to_owned()]).collect();
-    Ok(Report::new(summary)
+    let report = Report::new(summary)
         .with("stones", packing.placed.len())
         .with("content_wanted", settings.content)
         .with("content", packing.content)
@@ -60,7 +60,8 @@ fn stone_pack(args: Args) -> anyhow::Result<Report> {
         .with("grain_density", grain_density)
         .with("materials", names)
         .with("seed", settings.seed)
-        .with("classes", &packing.classes))
+        .with("classes", &packing.classes);
+    Ok(args.placing.report(report))
 }
 
 /// The density at which the grains of all stones weigh what the stones do [kg/m³]; none without stones.

@@ -53,11 +53,8 @@ pub fn read(args: &Args, regions: &Regions, settings: &WallSettings) -> anyhow::
 fn read_mesh(args: &Args, path: &Path) -> anyhow::Result<(TriMesh, (String, String))> {
     let name = path.display().to_string();
     let bytes = stream::whole::file(path).with_context(|| format!("{name}: cannot read"))?;
-    let mut mesh = mesh::from_bytes(&bytes).with_context(|| name.clone())?;
-    if let Some(factor) = args.input.lengths.factor() {
-        mesh.scale(factor);
-    }
-    args.input.placing.mesh(&mut mesh, &name);
+    let mesh = cli::read_mesh(&bytes, &name, &args.input.lengths, &args.input.placing)
+        .with_context(|| name.clone())?;
     Ok((mesh, ("mesh".to_owned(), stream::sha256(&bytes))))
 }
 

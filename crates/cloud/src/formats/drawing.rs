@@ -3,7 +3,6 @@
 use super::ReadError;
 use crate::Cloud;
 use crate::points::ReadWarning;
-use crate::units::{Survey, UnitWarning};
 use stream::Table;
 
 /// Packed files and streams of other kinds, whose first bytes are no head of a drawing.
@@ -14,8 +13,9 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
-    let mesh::Contents { mesh, notes, short } = mesh::contents(&bytes)?;
-    let mesh = mesh.welded();
+    let contents = mesh::contents(&bytes)?;
+    let lost = contents.lost_digits();
+    let (mesh, notes) = (contents.mesh.welded(), contents.notes);
     if mesh.vertices.is_empty() {
         return Err(mesh::MeshFileError::from(geom::mesh::MeshError::Empty).into());
     }
@@ -27,9 +27,6 @@ pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     let mut cloud = Cloud { points: mesh.vertices, attributes, double: true, comments, ..Cloud::default() };
     notes.into_iter().for_each(|what| cloud.leave_out(what));
     // They are written in 8 bytes, which what moves or scales them needs, and their digits are lost all the same.
-    let mut survey = Survey::new(cloud.points.len());
-    survey.add(cloud.points.len(), |row| cloud.points[row]);
-    let lost = survey.warnings(!short, &[]).into_iter().find(|w| matches!(w, UnitWarning::Short { .. }));
     cloud.warnings.extend(lost.map(ReadWarning::Digits));
     Ok(cloud)
 }

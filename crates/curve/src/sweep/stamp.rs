@@ -61,12 +61,24 @@ pub(super) fn stamp(job: &Job, text: &str, tools: &Path, hashes: &mut Hashes) ->
     Ok(stream::sha256(all.join("\n").as_bytes()))
 }
 
-/// Every text in a scene, of a shape the file that it names.
+/// Every text in a scene, of a shape the files that it names.
 fn words(value: &Value) -> Vec<String> {
     match value {
-        Value::String(text) => vec![geom::shape::file_of(text).unwrap_or(text).to_owned()],
+        Value::String(text) => match geom::shape::files_of(text) {
+            files if files.is_empty() => vec![text.clone()],
+            files => files.into_iter().map(str::to_owned).collect(),
+        },
         Value::Array(list) => list.iter().flat_map(words).collect(),
-        Value::Table(table) => table.values().flat_map(words).collect(),
+        // A shape may be `{ mesh = "FILE" }`.
+        Value::Table(table) => table
+            .iter()
+            .flat_map(|(key, value)| match value {
+                Value::String(text) if matches!(key.as_str(), "mesh" | "prism") => {
+                    words(&Value::String(format!("{key}:{text}")))
+                }
+                value => words(value),
+            })
+            .collect(),
         _ => Vec::new(),
     }
 }

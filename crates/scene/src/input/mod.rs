@@ -168,9 +168,19 @@ pub fn read_path(path: &Path, has_axis: bool) -> Result<(Vec<PathRow>, String)> 
 /// # Errors
 /// A file of another kind, faces without vertices.
 pub fn read_mesh(path: &Path, factor: f64) -> Result<TriMesh> {
+    read_mesh_warned(path, factor, &mut Vec::new())
+}
+
+/// As [`read_mesh`], with what the user is to know of the file.
+///
+/// # Errors
+/// As [`read_mesh`].
+pub(crate) fn read_mesh_warned(path: &Path, factor: f64, warnings: &mut Vec<String>) -> Result<TriMesh> {
+    let name = path.display().to_string();
     let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
-    let mut mesh = mesh::from_bytes(&bytes)
-        .map_err(|e| SceneError::content(&path.display().to_string(), "a mesh", e))?;
+    let surface = mesh::contents(&bytes).and_then(mesh::Contents::surface);
+    let (mut mesh, noticed) = surface.map_err(|e| SceneError::content(&name, "a mesh", e))?;
+    warnings.extend(noticed.into_iter().map(|warning| format!("{name}: {warning}")));
     if factor != 1.0 {
         mesh.scale(factor);
     }

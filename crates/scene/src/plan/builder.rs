@@ -6,11 +6,12 @@ use super::obstacles::Obstacles;
 use super::servos::ServoArea;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
-use crate::input::{InletSource, RunContacts, read_mesh};
+use crate::input::{InletSource, RunContacts};
 use crate::keys::{self, SceneKeys};
 use crate::scene::Scene;
 use dem::setup::{self, EntryBonds, Particle, Zone};
 use geom::Shape;
+use mesh::Files;
 use record::{Map, MaterialRecord, Sizes};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -138,8 +139,7 @@ impl<'a> PlanBuilder<'a> {
     }
 
     pub(super) fn shape(&self, key: &str, text: &str) -> Result<Shape> {
-        let load = |file: &str| read_mesh(&self.path(file), 1.0).map_err(|e| e.to_string());
-        Shape::parse(text, &load).map_err(|e| {
+        Shape::parse(text, &Files(&self.scene.folder)).map_err(|e| {
             let cure = "write box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r or cylinder:x0,y0,z0,x1,y1,z1,r";
             self.check.wrong(key, format!("\"{text}\""), &e.to_string(), cure)
         })

@@ -7,7 +7,7 @@
 
 use super::builder::PlanBuilder;
 use crate::error::{Result, SceneError};
-use crate::input::read_mesh;
+use crate::input::read_mesh_warned;
 use crate::keys::{Clump, ClumpMass};
 use dem::setup::ClumpShape;
 use geom::mesh::TriMesh;
@@ -73,8 +73,8 @@ impl PlanBuilder<'_> {
         Ok((spheres, moments))
     }
 
-    fn polyhedron(&self, key: &str, entry: &Clump, file: &str) -> Result<(Vec<Sphere>, Moments)> {
-        let mesh = read_mesh(&self.path(file), entry.scale)?.welded();
+    fn polyhedron(&mut self, key: &str, entry: &Clump, file: &str) -> Result<(Vec<Sphere>, Moments)> {
+        let mesh = read_mesh_warned(&self.path(file), entry.scale, &mut self.warnings)?.welded();
         let refused = |why: &str, cure: &str| {
             self.check.wrong(&format!("{key}.mesh"), format!("\"{file}\""), why, cure)
         };

@@ -7,14 +7,23 @@ use crate::keys::Strain;
 use dem::setup::{self, Target};
 
 impl PlanBuilder<'_> {
+    /// What a file says of the domain.
+    fn domain_of_file(&self) -> Result<Option<[Option<(f64, f64)>; 3]>> {
+        self.keys().domain.source.as_ref().map(|source| read_domain(&self.path(source))).transpose()
+    }
+
+    /// Adds that to what the run is made from.
+    pub(super) fn note_domain(&mut self) -> Result<()> {
+        let read = self.domain_of_file()?;
+        self.inputs.extend(read.map(|range| ("domain".to_owned(), format!("{range:?}"))));
+        Ok(())
+    }
+
     /// Lowest and highest coordinate [m] of each axis that is periodic.
-    pub(super) fn periodic(&mut self) -> Result<[Option<(f64, f64)>; 3]> {
+    pub(super) fn periodic(&self) -> Result<[Option<(f64, f64)>; 3]> {
         let domain = self.keys().domain.clone();
         let mut periodic = [None; 3];
-        let read = domain.source.as_ref().map(|source| read_domain(&self.path(source))).transpose()?;
-        if let Some(range) = &read {
-            self.inputs.push(("domain".to_owned(), format!("{range:?}")));
-        }
+        let read = self.domain_of_file()?;
         for axis in &domain.periodic {
             let a = *axis as usize;
             if let (Some(range), Some(source)) = (&read, &domain.source) {

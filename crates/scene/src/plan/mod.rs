@@ -17,6 +17,7 @@ mod domain;
 mod feed;
 mod fill;
 mod grading;
+mod images;
 mod impact;
 mod implausible;
 mod insertion;

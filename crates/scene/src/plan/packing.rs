@@ -1,5 +1,6 @@
 //! Random places for whole spheres inside a shape, none of which touch.
 
+use super::images::Images;
 use super::obstacles::{Obstacles, Taken};
 use super::random::unit;
 use geom::{Shape, Vec3, shape::Solid};
@@ -61,6 +62,9 @@ pub(super) fn holds(shape: &Shape, centre: &Vec3, radius: f64) -> bool {
 /// Spheres sorted into cells as they come, to see at once whether another one fits between them.
 pub(super) struct Occupied {
     low: Vec3,
+    high: Vec3,
+    /// Radius of the largest one, there or to come [m].
+    largest: f64,
     cell: f64,
     count: [usize; 3],
     /// Last sphere of each cell, and for each sphere the one before it in its cell.
@@ -78,8 +82,7 @@ impl Occupied {
         let spheres = &taken.spheres;
         let largest = spheres.iter().map(|s| s.1).fold(largest, f64::max);
         let mut occupied = Occupied { walls: taken.walls.clone(), ..Occupied::new(low, high, largest) };
-        let near = |p: &Vec3| (0..3).all(|a| p[a] > low[a] - 2.0 * largest && p[a] < high[a] + 2.0 * largest);
-        spheres.iter().filter(|s| near(&s.0)).for_each(|s| occupied.take(s.0, s.1));
+        spheres.iter().for_each(|s| occupied.take(s.0, s.1));
         occupied
     }
 
@@ -97,6 +100,8 @@ impl Occupied {
         let cells = count.iter().product();
         Occupied {
             low,
+            high,
+            largest,
             cell,
             count,
             last: vec![NONE; cells],
@@ -132,8 +137,19 @@ impl Occupied {
         self.walls.as_ref().is_none_or(|walls| walls.is_free(centre, radius))
     }
 
-    /// Puts a sphere there.
+    /// Puts a sphere there, and its images; what is too far from the box to be touched from there is left out.
     fn take(&mut self, centre: Vec3, radius: f64) {
+        let reach = 2.0 * self.largest;
+        let (low, high) = (self.low.add_scalar(-reach), self.high.add_scalar(reach));
+        let images = self.walls.as_ref().map_or_else(Images::default, |walls| walls.images);
+        for at in images.between(centre, &low, &high) {
+            if (0..3).all(|a| at[a] > low[a] && at[a] < high[a]) {
+                self.put(at, radius);
+            }
+        }
+    }
+
+    fn put(&mut self, centre: Vec3, radius: f64) {
         let [x, y, z] = self.cell_of(&centre);
         let cell = (z * self.count[1] + y) * self.count[0] + x;
         self.before.push(self.last[cell]);

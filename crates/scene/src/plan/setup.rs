@@ -24,6 +24,7 @@ impl PlanBuilder<'_> {
         self.entry_materials.sort_unstable();
         self.entry_materials.dedup();
         let kept = self.kept();
+        self.note_domain()?;
         let (periodic, strain) = (self.periodic()?, self.strain()?);
         self.clusters.sort_unstable();
         let setup = Setup {

@@ -4,7 +4,7 @@ use super::builder::{PlanBuilder, WallMaterial};
 use super::solids;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
-use crate::input::{Input, WallFile, read_mesh, read_path};
+use crate::input::{Input, WallFile, read_mesh_warned, read_path};
 use crate::keys::{Face, Motion, Rotate, Wall};
 use dem::setup::{self, SurfaceMotion, WallShape};
 use geom::motion::Path;
@@ -195,13 +195,13 @@ impl PlanBuilder<'_> {
     }
 
     /// Names and shapes of a wall that is a plane, a mesh or a box.
-    fn surfaces(&self, key: &str, name: &str, entry: &Wall) -> Result<Vec<(String, WallShape)>> {
+    fn surfaces(&mut self, key: &str, name: &str, entry: &Wall) -> Result<Vec<(String, WallShape)>> {
         if let Some(text) = &entry.plane {
             let plane = plane(&self.check, &format!("{key}.plane"), text)?;
             return Ok(vec![(name.to_owned(), entry.put(WallShape::Plane(plane)))]);
         }
         if let Some(file) = &entry.mesh {
-            let mesh = read_mesh(&self.path(file), entry.length_factor())?;
+            let mesh = read_mesh_warned(&self.path(file), entry.length_factor(), &mut self.warnings)?;
             return Ok(vec![(name.to_owned(), entry.put(WallShape::Mesh(mesh)))]);
         }
         if let Some(text) = &entry.solid {

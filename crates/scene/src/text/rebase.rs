@@ -1,5 +1,6 @@
 //! Files that a scene names, as seen from another folder.
 
+use geom::shape::with_files;
 use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, TableLike, Value, value};
 
@@ -10,7 +11,7 @@ const KEYS: [(&str, &[&str]); 6] = [
     ("particles", &["source"]),
     ("inlet", &["source"]),
     ("fill", &["sizes", "shape"]),
-    ("insert", &["sizes"]),
+    ("insert", &["sizes", "shape"]),
 ];
 
 /// Shapes that are files.
@@ -22,11 +23,17 @@ pub fn rebase(document: &mut DocumentMut, from: &Path, to: &Path) {
         let tables = document.get_mut(table).and_then(Item::as_array_of_tables_mut);
         for entry in tables.into_iter().flat_map(|tables| tables.iter_mut()) {
             for key in keys {
-                let Some((item, start)) = entry.get_mut(key).and_then(|item| file_of(item, key)) else {
+                let Some((item, kind)) = entry.get_mut(key).and_then(|item| file_of(item, key)) else {
                     continue;
                 };
                 let text = item.as_str().unwrap_or_default();
-                *item = value(format!("{}{}", &text[..start], relative(&from.join(&text[start..]), to)));
+                *item = value(match kind {
+                    Named::File => relative(&from.join(text), to),
+                    Named::Shape(head) => {
+                        let shape = format!("{head}{text}");
+                        with_files(&shape, |file| relative(&from.join(file), to))[head.len()..].to_owned()
+                    }
+                });
             }
         }
     }
@@ -60,22 +67,24 @@ fn in_table(table: &mut dyn TableLike, from: &Path, to: &Path) {
     }
 }
 
-/// The text that names a file, and where in it the name begins: a text itself, `file` in a table of sizes, a shape as `mesh:FILE` or
-/// `{ mesh = FILE }`.
-fn file_of<'a>(item: &'a mut Item, key: &str) -> Option<(&'a mut Item, usize)> {
+/// What a text of a scene is.
+enum Named {
+    /// The name of a file.
+    File,
+    /// A shape, and what of it stands in a key.
+    Shape(String),
+}
+
+/// The text that names a file: a text itself, `file` in a table of sizes, a shape as `mesh:FILE` or `{ mesh = FILE }`.
+fn file_of<'a>(item: &'a mut Item, key: &str) -> Option<(&'a mut Item, Named)> {
     if item.is_table_like() {
         let inner =
             ["file"].into_iter().chain(SHAPES).find(|name| item.get(name).is_some_and(Item::is_str))?;
-        return item.get_mut(inner).map(|inner| (inner, 0));
+        let named = if inner == "file" { Named::File } else { Named::Shape(format!("{inner}:")) };
+        return item.get_mut(inner).map(|inner| (inner, named));
     }
-    let text = item.as_str()?;
-    let shape = || {
-        text.split_once(':')
-            .map(|(name, _)| name)
-            .filter(|name| SHAPES.contains(&name.trim_start_matches('!')))
-    };
-    let start = if key == "shape" { shape()?.len() + 1 } else { 0 };
-    Some((item, start))
+    item.as_str()?;
+    Some((item, if key == "shape" { Named::Shape(String::new()) } else { Named::File }))
 }
 
 /// A file as seen from a folder; as it is when the way is not known.
@@ -113,14 +122,15 @@ mod tests {
 
     #[test]
     fn files_of_all_kinds_are_seen_from_the_new_folder() {
-        let text = "[[fill]]\nshape = \"mesh:a.ply,units=mm\"\nsizes = { file = \"s.csv\" }\n[[fill]]\nshape = { mesh = \"c.ply\" }\n[[fill]]\nshape = \"box:0,0,0,1,1,1\"\n[[clump]]\nmesh = \"b.ply\"\n";
+        let text = "[[fill]]\nshape = \"mesh:a.ply,units=mm,transform=m.txt\"\nsizes = { file = \"s.csv\" }\n[[fill]]\nshape = { mesh = \"c.ply,transform=m.txt\" }\n[[fill]]\nshape = \"box:0,0,0,1,1,1\"\n[[clump]]\nmesh = \"b.ply\"\n";
         let mut document: DocumentMut = text.parse().unwrap();
         rebase(&mut document, Path::new("/lab"), Path::new("/lab/run"));
         let now = text
             .replace("a.ply", "../a.ply")
             .replace("s.csv", "../s.csv")
             .replace("b.ply", "../b.ply")
-            .replace("c.ply", "../c.ply");
+            .replace("c.ply", "../c.ply")
+            .replace("m.txt", "../m.txt");
         assert_eq!(document.to_string(), now);
     }
 

@@ -5,7 +5,7 @@ use super::help;
 use grainpipe_tests::tools::{line, succeed};
 
 /// A shape of each form that holds some points of the plate and not others.
-const SHAPES: [&str; 8] = [
+const SHAPES: [&str; 9] = [
     "box:-1,-1,-1,0.1,1,1",
     "sphere:0,0,0,0.1",
     "cylinder:0,0,-1,0,0,1,0.1",
@@ -14,6 +14,7 @@ const SHAPES: [&str; 8] = [
     "prism:prism.json",
     "mesh:tetra.ply",
     "mesh:tetra.ply,scale=0.9",
+    "mesh:tetra.ply,transform=0,-1,0,0.06,1,0,0,0,0,0,1,0,0,0,0,1",
 ];
 
 /// The forms that a help text lists.
