@@ -197,7 +197,7 @@ fn what_a_message_names_lets_the_run_go_on() {
     let mut tried = 0;
     for remedy in Remedy::ALL {
         let text = remedy.text(0, "");
-        match how(remedy) {
+        match how(*remedy) {
             Words => assert!(!names_a_key(&text), "'{text}' names a key and is not tried"),
             Elsewhere => {}
             Runs(folder, call, change) => {

@@ -67,8 +67,8 @@ impl<'a> MeshText<'a> {
 
     /// The file of its matrix, unless that stands here.
     fn matrix(&self) -> Option<&'a str> {
-        let given = self.options.iter().filter(|[name, _]| *name == "transform").map(|[_, value]| *value);
-        given.filter(|value| !Transform::is_numbers(value)).next_back()
+        let mut given = self.options.iter().filter(|[name, _]| *name == "transform").map(|[_, value]| *value);
+        given.rfind(|value| !Transform::is_numbers(value))
     }
 }
 

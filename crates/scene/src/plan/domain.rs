@@ -6,9 +6,12 @@ use crate::input::{STRAIN_COLUMNS, read_domain, read_load};
 use crate::keys::Strain;
 use dem::setup::{self, Target};
 
+/// Lowest and highest coordinate [m] of each axis that is periodic.
+type Ranges = [Option<(f64, f64)>; 3];
+
 impl PlanBuilder<'_> {
     /// What a file says of the domain.
-    fn domain_of_file(&self) -> Result<Option<[Option<(f64, f64)>; 3]>> {
+    fn domain_of_file(&self) -> Result<Option<Ranges>> {
         self.keys().domain.source.as_ref().map(|source| read_domain(&self.path(source))).transpose()
     }
 
@@ -20,7 +23,7 @@ impl PlanBuilder<'_> {
     }
 
     /// Lowest and highest coordinate [m] of each axis that is periodic.
-    pub(super) fn periodic(&self) -> Result<[Option<(f64, f64)>; 3]> {
+    pub(super) fn periodic(&self) -> Result<Ranges> {
         let domain = self.keys().domain.clone();
         let mut periodic = [None; 3];
         let read = self.domain_of_file()?;
