@@ -20,6 +20,7 @@ mod ptx;
 mod text_names;
 mod xyz;
 mod xyz_columns;
+mod xyz_names;
 
 pub use ply::{read_mesh, to_ply, write_mesh, write_ply};
 pub use text_names::TextColumns;
