@@ -15,7 +15,8 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
 
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     let mesh::Contents { mesh, notes, short } = mesh::contents(&bytes)?;
-    let mesh = mesh.welded();
+    // Without faces each vertex is a point.
+    let mesh = if mesh.faces.is_empty() { mesh } else { mesh.welded() };
     if mesh.vertices.is_empty() {
         return Err(mesh::MeshFileError::from(geom::mesh::MeshError::Empty).into());
     }
