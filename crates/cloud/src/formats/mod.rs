@@ -151,6 +151,23 @@ pub fn go_on_as(
     }
 }
 
+/// The same of one of several clouds, of which only those of text get the names; says whether it did.
+///
+/// # Errors
+/// As [`read`].
+pub fn go_on_among(
+    opened: stream::ply::Opened<impl Read>,
+    columns: Option<&TextColumns>,
+) -> Result<(Cloud, bool), ReadError> {
+    match ply::stream(opened)? {
+        Ok(cloud) => few_enough(cloud).map(|cloud| (cloud, false)),
+        Err(bytes) => {
+            let columns = columns.filter(|_| format_of(&bytes).is_some_and(|format| format.name == TEXT));
+            from_bytes_as(bytes, columns).map(|cloud| (cloud, columns.is_some()))
+        }
+    }
+}
+
 fn few_enough(cloud: Cloud) -> Result<Cloud, ReadError> {
     match cloud.points.len() {
         0..MOST => Ok(cloud),
