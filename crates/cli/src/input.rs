@@ -219,6 +219,18 @@ impl Input {
         Ok(self.in_metres(cloud))
     }
 
+    /// Reads one of several clouds, of which only those of text get the names of `--columns`; says whether it did.
+    ///
+    /// # Errors
+    /// As [`Input::read_cloud`].
+    pub fn read_among(&self) -> anyhow::Result<(cloud::Cloud, bool)> {
+        let opened = stream::ply::Opened::new(self.open()?).map_err(cloud::ReadError::Io);
+        let read = opened.and_then(|opened| cloud::formats::go_on_among(opened, self.columns.given()));
+        let (cloud, is_named) = read.with_context(|| self.name())?;
+        self.warn_of_marks(&cloud);
+        Ok((self.in_metres(cloud), is_named))
+    }
+
     fn read(&self, from: impl Read) -> anyhow::Result<cloud::Cloud> {
         let opened = stream::ply::Opened::new(from).map_err(cloud::ReadError::Io);
         let cloud = opened.and_then(|opened| cloud::formats::go_on_as(opened, self.columns.given()));

@@ -9,10 +9,14 @@ use stream::{Table, Values};
 const MOVED: &str = "coordinates were transformed by";
 /// What becomes of the comments that hold for the coordinates before.
 const BEFORE: &str = "before they were transformed:";
-/// Properties that are directions, without the letter of their axis, `_` and blanks, in small letters: normals, velocities, spins, forces.
-const DIRECTIONS: [&str; 9] = ["n", "normal", "v", "velocity", "w", "omega", "f", "force", "direction"];
+/// Properties that are directions, without the letter or number of their axis and what stands around it, in small letters: normals, velocities, spins, forces.
+const DIRECTIONS: [&str; 11] =
+    ["n", "normal", "normals", "v", "velocities", "velocity", "w", "omega", "f", "force", "direction"];
 
-/// Three columns whose names differ only in the letter of their axis.
+/// What the axes are called.
+const AXES: [[char; 3]; 3] = [['x', 'y', 'z'], ['X', 'Y', 'Z'], ['0', '1', '2']];
+
+/// Three columns whose names differ only in the letter of their axis, or in its number.
 struct Triple {
     columns: [usize; 3],
     /// The name of the first one, and what is left of it without its axis.
@@ -63,19 +67,26 @@ fn turn(table: &mut Table, by: &Transform) -> Vec<String> {
     unknown.into_iter().map(|triple| triple.name).collect()
 }
 
-/// Columns `…x…`, `…y…`, `…z…`, in the order of the first ones.
+/// Columns `…x…`, `…y…`, `…z…`, or with `0`, `1`, `2` and no `3`, in the order of the first ones.
 fn triples(table: &Table) -> Vec<Triple> {
     let names: Vec<&str> = table.columns().iter().map(|column| column.name.as_str()).collect();
     let find = |name: &str| names.iter().position(|other| *other == name);
     let mut used = HashSet::new();
     let mut found = Vec::new();
     for (first, name) in names.iter().enumerate() {
-        for (at, letter) in name.char_indices().filter(|(_, c)| matches!(c, 'x' | 'X')) {
-            let [y, z] = if letter == 'x' { ["y", "z"] } else { ["Y", "Z"] };
-            let other = |axis: &str| find(&format!("{}{axis}{}", &name[..at], &name[at + 1..]));
-            let (Some(second), Some(third)) = (other(y), other(z)) else { continue };
+        for (at, letter) in name.char_indices() {
+            let Some([_, y, z]) = AXES.iter().find(|axes| axes[0] == letter) else { continue };
+            let (before, behind) = (&name[..at], &name[at + 1..]);
+            let other = |axis: char| find(&format!("{before}{axis}{behind}"));
+            let (Some(second), Some(third)) = (other(*y), other(*z)) else { continue };
+            // "t10", and the first three numbers of a longer list.
+            let is_digit = |c: char| c.is_ascii_digit();
+            let is_part = before.ends_with(is_digit) || behind.starts_with(is_digit) || other('3').is_some();
+            if letter == '0' && is_part {
+                continue;
+            }
             if used.insert(first) {
-                let rest = [&name[..at], &name[at + 1..]].concat().replace(['_', ' '], "");
+                let rest = [before, behind].concat().replace(['_', ' ', ':', '[', ']', '(', ')', '.'], "");
                 found.push(Triple {
                     columns: [first, second, third],
                     name: (*name).to_owned(),

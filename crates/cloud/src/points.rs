@@ -49,12 +49,26 @@ pub enum ReadWarning {
         horizontal.name, horizontal.metres, vertical.name, vertical.metres
     )]
     TwoUnits { horizontal: LengthUnit, vertical: LengthUnit },
+    #[error(
+        "its header gives x, y and z in '{}' of {} m, and everything here is in metres: read it with --scale {}, or with --scale 1 if it \
+         is in metres all the same", .0.name, .0.metres, .0.metres
+    )]
+    HeaderUnit(LengthUnit),
+    #[error(
+        "its header gives x in '{}', y in '{}' and z in '{}': write all three in one unit", .0[0].name, .0[1].name, .0[2].name
+    )]
+    HeaderUnits([LengthUnit; 3]),
+    #[error(
+        "line {line} ('{text}') is read as a remark, because it has {words} words and the first point {columns} columns: columns 1, 2 and 3 \
+         are x, y and z. If they are not, name the columns with --columns"
+    )]
+    NamesInDoubt { line: usize, text: String, words: usize, columns: usize },
 }
 
 impl ReadWarning {
     /// Whether a scale that is given answers it.
     pub fn is_answered_by_scale(&self) -> bool {
-        matches!(self, ReadWarning::Unit(_))
+        matches!(self, ReadWarning::Unit(_) | ReadWarning::HeaderUnit(_))
     }
 }
 

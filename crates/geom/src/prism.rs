@@ -69,7 +69,8 @@ impl Prism {
     /// # Errors
     /// Other JSON, or a polygon and an extrusion that make no prism.
     pub fn from_json(text: &str) -> Result<Prism, PrismError> {
-        let file: File = serde_json::from_str(text)?;
+        // Some programs mark UTF-8.
+        let file: File = serde_json::from_str(text.strip_prefix('\u{feff}').unwrap_or(text))?;
         let polygon: Vec<Vec3> = file.polygon.into_iter().map(Vec3::from).collect();
         Prism::new(&polygon, file.extrusion.into())
     }
@@ -131,6 +132,13 @@ mod tests {
         let has = |x, y, z| prism.contains(&Vec3::new(x, y, z));
         assert!(has(0.5, 0.5, 1.001) && has(1.5, 0.5, 2.9) && !has(0.4, 0.5, 2.9));
         assert!(!has(1.0, 1.5, 1.1) && !has(0.5, 0.5, 0.9) && !has(1.5, 0.5, 3.1));
+    }
+
+    #[test]
+    fn a_prism_may_begin_with_a_byte_order_mark() {
+        let text = r#"{"polygon": [[0,0,0],[1,0,0],[0,1,0]], "extrusion": [0,0,1]}"#;
+        let marked = Prism::from_json(&format!("\u{feff}{text}")).unwrap();
+        assert!(marked.contains(&Vec3::new(0.2, 0.2, 0.5)));
     }
 
     #[test]

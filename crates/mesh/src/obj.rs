@@ -57,6 +57,8 @@ struct Obj {
     /// Elements `l` and `p`.
     lines: usize,
     points: usize,
+    /// Vertices with a colour.
+    coloured: usize,
 }
 
 /// Which indices a corner of a face has besides that of its vertex.
@@ -73,6 +75,7 @@ impl Obj {
                     return Err(wrong(number, "a vertex is not three numbers", line));
                 };
                 self.vertices.push(Vec3::new(x, y, z));
+                self.coloured += usize::from(words.count() >= 3);
             }
             Some("f" | "fo") => {
                 let face = self.ends.len() + 1;
@@ -135,6 +138,10 @@ impl Obj {
         // A coordinate that is not finite is refused with its number in the file.
         let all = TriMesh::new(self.vertices, Vec::new())?;
         if faces.is_empty() {
+            if self.coloured > 0 {
+                notes
+                    .push(format!("the colours of {} vertices were left out: PLY keeps them", self.coloured));
+            }
             return Ok(Contents { mesh: all, notes, short: false });
         }
         let (all, mut used) = (all.vertices, Vec::new());

@@ -1,7 +1,7 @@
 //! STL, ASCII and binary (many binary files begin with the word "solid" too).
 //!
 //! ```text
-//! binary   80 bytes, count, count × (normal, 3 corners: 12 numbers of 4 bytes; 2 bytes)      little endian; what follows is passed over
+//! binary   80 bytes, count, count × (normal, 3 corners: 12 numbers of 4 bytes; 2 bytes)      little endian; another file may follow, and less than a triangle is passed over
 //! ASCII    solid NAME, facets, endsolid NAME; any number of solids                           one mesh; numbers in double precision
 //! ```
 //!
@@ -93,8 +93,28 @@ impl Solid {
         })
     }
 
-    fn read_binary(&mut self, bytes: &[u8]) -> Result<(), MeshFileError> {
-        let Some(promised) = promised(bytes) else {
+    /// Reads one file, and those that were joined to it.
+    fn read_binary(&mut self, mut bytes: &[u8]) -> Result<(), MeshFileError> {
+        loop {
+            let (count, rest) = self.read_one(bytes)?;
+            if rest.len() < TRIANGLE {
+                return Ok(());
+            }
+            let is_whole = |next: u64| next > 0 && (rest.len() - HEAD) as u64 / TRIANGLE as u64 >= next;
+            if !(promised(rest).is_some_and(is_whole) && begins_with_a_triangle(rest)) {
+                return Err(MeshFileError::Stl(format!(
+                    "its head promises {count} triangles, and {} bytes follow them, which are no further file: more triangles than it \
+                     counts, or something else",
+                    rest.len()
+                )));
+            }
+            bytes = rest;
+        }
+    }
+
+    /// Reads one file; gives its count and what follows it.
+    fn read_one<'a>(&mut self, bytes: &'a [u8]) -> Result<(u64, &'a [u8]), MeshFileError> {
+        let Some(count) = promised(bytes) else {
             return Err(MeshFileError::Stl(format!(
                 "{} bytes are less than the head of a file",
                 bytes.len()
@@ -102,16 +122,17 @@ impl Solid {
         };
         let body = &bytes[HEAD..];
         let held = (body.len() / TRIANGLE) as u64;
-        if held < promised || promised == 0 && held > 0 {
-            return Err(MeshFileError::CutOff { promised, held });
+        if held < count || count == 0 && held > 0 {
+            return Err(MeshFileError::CutOff { promised: count, held });
         }
-        for triangle in body.chunks_exact(TRIANGLE).take(promised as usize) {
+        let (body, rest) = body.split_at(count as usize * TRIANGLE);
+        for triangle in body.chunks_exact(TRIANGLE) {
             let numbers = numbers(triangle);
             let face = [3, 6, 9].map(|k| Vec3::from_column_slice(&numbers[k..k + 3]));
             let face = face.map(|corner| self.vertex(corner));
             self.faces.push(face);
         }
-        Ok(())
+        Ok((count, rest))
     }
 
     fn read_text(&mut self, bytes: &[u8]) -> Result<(), MeshFileError> {

@@ -35,8 +35,14 @@ fn line_error(line: usize, what: impl Into<String>, text: &str) -> PoseError {
     PoseError::Line { line, what: what.into(), text: text.chars().take(60).collect() }
 }
 
+/// Text without the mark of UTF-8 that some programs write first.
+fn bare(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
 /// Lines that are neither empty nor comments, with their numbers from 1.
 fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let text = bare(text);
     (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'))
 }
 
@@ -68,7 +74,7 @@ pub fn table(text: &str) -> Result<Vec<Pose>, PoseError> {
 /// # Errors
 /// Other text than twelve numbers.
 pub fn matrix(name: &str, text: &str) -> Result<Pose, PoseError> {
-    let numbers: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
+    let numbers: Result<Vec<f64>, _> = bare(text).split_whitespace().map(str::parse).collect();
     match numbers {
         Ok(numbers) if numbers.len() == 12 => pose(name, &numbers),
         _ => Err(line_error(1, "give twelve numbers, row by row", text.lines().next().unwrap_or_default())),
@@ -102,7 +108,7 @@ pub fn colmap(cameras: &str, images: &str) -> Result<Vec<Pose>, PoseError> {
     }
     let mut poses = Vec::new();
     // Every second line lists points, and may be empty.
-    let rows = (1..).zip(images.lines()).filter(|(_, line)| !line.trim_start().starts_with('#'));
+    let rows = (1..).zip(bare(images).lines()).filter(|(_, line)| !line.trim_start().starts_with('#'));
     for (line, row) in rows.step_by(2).filter(|(_, row)| !row.trim().is_empty()) {
         let wrong = |what: &str| line_error(line, format!("images.txt: {what}"), row);
         let words: Vec<&str> = row.split_whitespace().collect();
@@ -192,5 +198,18 @@ mod tests {
         assert!(wrong.contains("line 1") && wrong.contains("twelve"), "{wrong}");
         let twice = format!("a {row}\na {row}\n");
         assert!(super::table(&twice).unwrap_err().to_string().contains("two poses"));
+    }
+
+    /// Some programs mark UTF-8 with three bytes in front; they are no part of the first name.
+    #[test]
+    fn a_byte_order_mark_is_no_part_of_a_name() {
+        let row = "700 0 160 320 0 690 120 240 0 0 1 2";
+        let text = format!("a.jpg {row}\nb.jpg {row}\n");
+        assert_eq!(table(&format!("\u{feff}{text}")), table(&text));
+        assert_eq!(matrix("x", &format!("\u{feff}{row}")), matrix("x", row));
+        let marked = |text: &str| format!("\u{feff}{text}");
+        let bare =
+            |text: &str| text.lines().filter(|line| !line.starts_with('#')).collect::<Vec<_>>().join("\n");
+        assert_eq!(colmap(&marked(&bare(CAMERAS)), &marked(&bare(IMAGES))), colmap(CAMERAS, IMAGES));
     }
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 const LOOKED_AT: usize = 2000;
 /// Depth over the distance of neighbours that counts [–]: noise is less.
 const COUNTS: f64 = 0.25;
-/// Share of the points [–] from which on it is told: a corner is a few.
+/// Share of the points [–] from which on a warning is given: a corner is a few.
 const TOLD: f64 = 0.02;
 
 /// Spheres that stick out.

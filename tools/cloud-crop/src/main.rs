@@ -116,7 +116,11 @@ fn merged(args: &Args) -> anyhow::Result<cloud::Cloud> {
     cli::Source::one_stdin(std::iter::once(&args.input.cloud).chain(&args.further))?;
     let further = args.further.iter().map(|cloud| cli::Input { cloud: cloud.clone(), ..args.input.clone() });
     let inputs = std::iter::once(args.input.clone()).chain(further);
-    let clouds = inputs.map(|input| input.read_cloud()).collect::<anyhow::Result<Vec<_>>>()?;
+    let clouds = inputs.map(|input| input.read_among()).collect::<anyhow::Result<Vec<_>>>()?;
+    let (clouds, named): (Vec<_>, Vec<bool>) = clouds.into_iter().unzip();
+    if !named.contains(&true) {
+        args.input.columns.none("it names the columns of text, and no cloud is text")?;
+    }
     cloud::merge(clouds).context("cannot merge the clouds")
 }
 

@@ -155,3 +155,27 @@ fn a_closed_mesh_is_a_region() {
     let (kept, removed) = (count(kept), count(removed));
     assert!(kept > 0 && removed > 0 && kept + removed == all, "{kept} + {removed} of {all}");
 }
+
+/// Of several clouds only those of text get the names of `--columns`; names that none of them takes are refused.
+#[test]
+fn names_of_columns_are_for_those_clouds_that_are_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
+    let files = [("a.ply", ply), ("b.xyz", "P1 4 5 6\n"), ("c.ply", ply)].map(|(name, text)| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    });
+    let [a, b, c] = files.each_ref().map(String::as_str);
+    for clouds in [[a, b], [b, a]] {
+        let done = crop(&[&clouds[..], &["--columns", "-,x,y,z"]].concat(), b"");
+        let told = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert_eq!(done.status.code(), Some(0), "{told}");
+        let mut x: Vec<f64> = cloud::from_bytes(done.stdout).unwrap().points.iter().map(|p| p.x).collect();
+        x.sort_by(f64::total_cmp);
+        assert_eq!(x, [1.0, 4.0]);
+    }
+    let none = crop(&[a, c, "--columns", "-,x,y,z"], b"");
+    let told = String::from_utf8_lossy(&none.stderr).into_owned();
+    assert!(none.status.code() == Some(2) && told.contains("no cloud is text: leave it out"), "{told}");
+}

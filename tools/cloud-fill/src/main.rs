@@ -12,8 +12,8 @@ use std::process::ExitCode;
 
 const ABOUT: &str = "A hole is a region inside the outline of the surface with a density of at most --below. The rim is not \
     changed. Each hole is meshed by ball pivoting, and points are put on the smooth surface that continues its \
-    surroundings. Added points have the property filled = 1 and take all other properties from the nearest scanned \
-    point. Without --below, a hole has at most a quarter of the \
+    surroundings. Added points have the property filled = 1 and take all other properties from the nearest of those \
+    points of the rim that the mesh of the hole joins: another scanned point may be nearer. Without --below, a hole has at most a quarter of the \
     density around it: holes about 8 local spacings wide and wider are found; the report gives the smallest.\n\n\
     Examples:\n\
     \x20 cloud-fill cropped.ply -o filled.ply\n\

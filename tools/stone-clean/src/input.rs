@@ -1,9 +1,9 @@
 //! A mesh or a cloud, whichever the bytes are.
 
-use crate::Args;
+use crate::{Args, nine};
 use anyhow::Context;
 use geom::Vec3;
-use geom::mesh::TriMesh;
+use geom::mesh::{MeshError, TriMesh};
 use mesh::MeshFileError;
 
 pub enum Read {
@@ -17,16 +17,21 @@ pub fn read(bytes: &[u8], args: &Args) -> anyhow::Result<Read> {
     // Text with nine numbers a line may be either.
     let mesh = match args.columns.given() {
         Some(_) => Err(MeshFileError::NoFaces),
+        None if nine::is_cloud(bytes) => Err(MeshFileError::NoFaces),
         None => cli::read_mesh(bytes, &args.input.to_string(), &args.lengths, &args.placing),
     };
     match mesh {
         Ok(mesh) => return Ok(Read::Mesh(mesh)),
         Err(MeshFileError::NoFaces | MeshFileError::Unknown { .. } | MeshFileError::Ply(_)) => {}
+        // Some programs give the faces of a cloud, too, which are none.
+        Err(MeshFileError::Mesh(MeshError::Empty)) => {}
         Err(error) => return Err(error.into()),
     }
     let cloud = cloud::formats::from_bytes_as(bytes.to_vec(), args.columns.given())
         .context("neither a mesh nor a cloud")?;
-    cloud.warnings.iter().for_each(|warning| cli::warn(&warning.to_string()));
+    let is_scaled = args.lengths.factor().is_some();
+    let open = cloud.warnings.iter().filter(|w| !(is_scaled && w.is_answered_by_scale()));
+    open.for_each(|warning| cli::warn(&warning.to_string()));
     let (mut cloud, _) = cloud.finite();
     cloud.check_reach()?;
     let places = cloud::places::distinct(&cloud.points, 0.0);

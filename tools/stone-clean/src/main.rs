@@ -1,6 +1,7 @@
 //! Makes a closed, oriented manifold of any mesh or cloud of a stone.
 
 mod input;
+mod nine;
 mod words;
 
 use anyhow::Context;

@@ -15,7 +15,9 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     let contents = mesh::contents(&bytes)?;
     let lost = contents.lost_digits();
-    let (mesh, notes) = (contents.mesh.welded(), contents.notes);
+    let mesh::Contents { mesh, notes, .. } = contents;
+    // Without faces each vertex is a point.
+    let mesh = if mesh.faces.is_empty() { mesh } else { mesh.welded() };
     if mesh.vertices.is_empty() {
         return Err(mesh::MeshFileError::from(geom::mesh::MeshError::Empty).into());
     }

@@ -1,8 +1,9 @@
 //! E57, by the `e57` crate: every scan of the file, each in its pose.
 
+use super::e57_color::ColorScale;
 use super::e57_extra::Extra;
 use super::e57_point::Fields;
-use super::{ReadError, catch, e57_claims as claims, e57_xml};
+use super::{ReadError, catch, e57_claims as claims, e57_xml, narrowed};
 use crate::Cloud;
 use e57::{E57Reader, PointCloud, RawValues};
 use geom::Vec3;
@@ -40,11 +41,12 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     claims::before_the_points(&scans, length).map_err(|e| broken(e, 0))?;
     let posed = scans.iter().enumerate().map(|(number, scan)| claims::with_sound_pose(number, scan));
     let scans: Vec<PointCloud> = posed.collect::<Result<_, _>>().map_err(|e| broken(e, 0))?;
+    let scales = ColorScale::of(&scans);
     let mut columns = Columns::default();
     let mut extra = Extra::of(&scans);
     for (number, scan) in scans.iter().enumerate() {
         let at = columns.points.len() as u64;
-        let (fields, further) = (Fields::of(scan), extra.in_scan(scan));
+        let (fields, further) = (Fields::of(scan, scales[number]), extra.in_scan(scan));
         for row in reader.pointcloud_raw(scan).map_err(|e| broken(e, at))? {
             let at = columns.points.len() as u64;
             let mut push = |row| {
@@ -98,13 +100,14 @@ impl Columns {
         }
         let mut cloud = Cloud { points: self.points, attributes, double: true, ..Cloud::default() };
         left_out.into_iter().for_each(|what| cloud.leave_out(what));
-        // A scanner stands at the origin of its scan; a pose that moves nothing is stated for merged scans as well.
-        for t in scans.iter().filter_map(|scan| scan.transform.as_ref()).map(|pose| &pose.translation) {
+        // A scanner stands at the origin of its scan. A pose that moves nothing is stated for scans that were merged as well: these have no grid, and there
+        // is one of them.
+        let eye = |scan: &PointCloud| {
+            let t = &scan.transform.as_ref()?.translation;
             let eye = Vec3::new(t.x, t.y, t.z);
-            if eye.norm() > 0.0 {
-                cloud.add_viewpoint(&eye);
-            }
-        }
+            (eye.norm() > 0.0 || scans.len() > 1 || scan.has_row_column()).then_some(eye)
+        };
+        scans.iter().filter_map(eye).for_each(|eye| cloud.add_viewpoint(&eye));
         Ok(cloud)
     }
 }
@@ -125,16 +128,4 @@ fn shortest(column: Vec<f64>) -> Values {
         return Values::F32(column.iter().map(|&v| v as f32).collect());
     }
     Values::F64(column)
-}
-
-/// Colours in the smallest type that holds them all.
-fn narrowed(column: Vec<f32>) -> Values {
-    let fits = |top: f32| column.iter().all(|&c| c.fract() == 0.0 && (0.0..=top).contains(&c));
-    if fits(255.0) {
-        Values::U8(column.iter().map(|&c| c as u8).collect())
-    } else if fits(65535.0) {
-        Values::U16(column.iter().map(|&c| c as u16).collect())
-    } else {
-        Values::F32(column)
-    }
 }

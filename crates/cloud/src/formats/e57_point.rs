@@ -8,6 +8,7 @@
 //!
 //! ASTM E2807-11 (2019), table 16.
 
+use super::e57_color::ColorScale;
 use e57::{PointCloud, Quaternion, RawValues, RecordName, Translation};
 use geom::Vec3;
 
@@ -20,6 +21,7 @@ pub(super) struct Fields<'a> {
     spherical_state: Option<usize>,
     color: Option<[usize; 3]>,
     color_state: Option<usize>,
+    color_scale: ColorScale,
     intensity: Option<usize>,
     intensity_state: Option<usize>,
     row: Option<usize>,
@@ -32,7 +34,7 @@ const VALID: i64 = 0;
 
 impl<'a> Fields<'a> {
     /// Of a scan.
-    pub(super) fn of(scan: &'a PointCloud) -> Fields<'a> {
+    pub(super) fn of(scan: &'a PointCloud, color_scale: ColorScale) -> Fields<'a> {
         use RecordName as Name;
         let place = |name: Name| scan.prototype.iter().position(|record| record.name == name);
         let three = |names: [Name; 3]| match names.map(place) {
@@ -47,6 +49,7 @@ impl<'a> Fields<'a> {
             spherical_state: place(Name::SphericalInvalidState),
             color: three([Name::ColorRed, Name::ColorGreen, Name::ColorBlue]),
             color_state: place(Name::IsColorInvalid),
+            color_scale,
             intensity: place(Name::Intensity),
             intensity_state: place(Name::IsIntensityInvalid),
             row: place(Name::RowIndex),
@@ -90,11 +93,13 @@ impl<'a> Fields<'a> {
         Ok(Vec3::repeat(f64::NAN))
     }
 
-    /// Red, green and blue as the file has them; black where they do not count.
+    /// Red, green and blue as the file has them, or in the limits of all scans; NaN where they do not count.
     pub(super) fn color(&self, row: &RawValues) -> e57::Result<[f32; 3]> {
         match self.color {
-            Some(at) if self.is_valid(row, self.color_state)? => Ok(self.three(row, at)?.map(|c| c as f32)),
-            _ => Ok([0.0; 3]),
+            Some(at) if self.is_valid(row, self.color_state)? => {
+                Ok(self.color_scale.apply(self.three(row, at)?))
+            }
+            _ => Ok([f32::NAN; 3]),
         }
     }
 

@@ -5,6 +5,7 @@
 mod drawing;
 mod e57;
 mod e57_claims;
+mod e57_color;
 mod e57_extra;
 mod e57_point;
 mod e57_xml;
@@ -20,6 +21,7 @@ mod ptx;
 mod text_names;
 mod xyz;
 mod xyz_columns;
+mod xyz_names;
 
 pub use ply::{read_mesh, to_ply, write_mesh, write_ply};
 pub use text_names::TextColumns;
@@ -27,6 +29,7 @@ pub use text_names::TextColumns;
 use crate::Cloud;
 use std::io::Read;
 use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
+use stream::Values;
 use stream::ply::PlyError;
 use stream::table::TableError;
 use thiserror::Error;
@@ -42,12 +45,14 @@ struct Format {
     read: fn(Vec<u8>) -> Result<Cloud, ReadError>,
 }
 
+/// The format whose columns are what they say.
+const PLY: &str = "PLY";
 /// The format of text.
 const TEXT: &str = "XYZ/PTS";
 
 /// Every format that a cloud is read from.
 const FORMATS: [Format; 7] = [
-    Format { name: "PLY", matches: ply::matches, read: ply::read },
+    Format { name: PLY, matches: ply::matches, read: ply::read },
     Format { name: "LAS/LAZ", matches: las::matches, read: las::read },
     Format { name: "E57", matches: e57::matches, read: e57::read },
     Format { name: "PCD", matches: pcd::matches, read: pcd::read },
@@ -146,6 +151,23 @@ pub fn go_on_as(
     }
 }
 
+/// The same of one of several clouds, of which only those of text get the names; says whether it did.
+///
+/// # Errors
+/// As [`read`].
+pub fn go_on_among(
+    opened: stream::ply::Opened<impl Read>,
+    columns: Option<&TextColumns>,
+) -> Result<(Cloud, bool), ReadError> {
+    match ply::stream(opened)? {
+        Ok(cloud) => few_enough(cloud).map(|cloud| (cloud, false)),
+        Err(bytes) => {
+            let columns = columns.filter(|_| format_of(&bytes).is_some_and(|format| format.name == TEXT));
+            from_bytes_as(bytes, columns).map(|cloud| (cloud, columns.is_some()))
+        }
+    }
+}
+
 fn few_enough(cloud: Cloud) -> Result<Cloud, ReadError> {
     match cloud.points.len() {
         0..MOST => Ok(cloud),
@@ -177,11 +199,38 @@ pub fn from_bytes_as(bytes: Vec<u8>, columns: Option<&TextColumns>) -> Result<Cl
             bytes.iter().take(12).flat_map(|b| std::ascii::escape_default(*b)).map(char::from).collect();
         return Err(ReadError::Unknown { start: format!("'{start}'"), hint: hint(&bytes) });
     };
-    few_enough(match columns {
+    let mut cloud = few_enough(match columns {
         Some(_) if format.name != TEXT => return Err(ReadError::Columns(format.name)),
         Some(columns) => xyz::read_as(&bytes, Some(columns))?,
         None => (format.read)(bytes)?,
-    })
+    })?;
+    if format.name != PLY {
+        warn_of_long_numbers(&mut cloud);
+    }
+    Ok(cloud)
+}
+
+/// Whole numbers of which not each has an 8-byte number of its own, up to the longest that files hold: 2⁵³ to 2⁶⁴.
+const LONG: std::ops::RangeInclusive<f64> = 9_007_199_254_740_992.0..=18_446_744_073_709_551_616.0;
+
+/// Says which columns hold whole numbers whose last digits are lost, as times in nanoseconds.
+fn warn_of_long_numbers(cloud: &mut Cloud) {
+    let is_long = |values: &Values| match values {
+        Values::F64(all) => {
+            let is_whole = |v: &f64| v.fract() == 0.0 || !v.is_finite();
+            all.iter().all(is_whole) && all.iter().any(|v| LONG.contains(&v.abs()))
+        }
+        _ => false,
+    };
+    let long = cloud.attributes.columns().iter().filter(|column| is_long(&column.values));
+    let names: Vec<String> = long.map(|column| format!("'{}'", column.name)).collect();
+    if !names.is_empty() {
+        let what = format!(
+            "{} holds whole numbers above 2^53, whose last digits are lost: subtract a whole number from all of them before",
+            names.join(", ")
+        );
+        cloud.leave_out(what);
+    }
 }
 
 /// The name of the format that `bytes` begin with.
@@ -232,4 +281,16 @@ fn catch(
         let what = "the file is broken in a way its reader could not name: export it again".to_owned();
         Err(ReadError::Broken { format, what, point: None })
     })
+}
+
+/// Colours in the smallest type that holds them all.
+fn narrowed(column: Vec<f32>) -> Values {
+    let fits = |top: f32| column.iter().all(|&c| c.fract() == 0.0 && (0.0..=top).contains(&c));
+    if fits(255.0) {
+        Values::U8(column.iter().map(|&c| c as u8).collect())
+    } else if fits(65535.0) {
+        Values::U16(column.iter().map(|&c| c as u16).collect())
+    } else {
+        Values::F32(column)
+    }
 }

@@ -131,7 +131,7 @@ fn decode(bytes: &[u8]) -> Result<Cloud, ReadError> {
     Ok(cloud)
 }
 
-/// A field with several values becomes `name_0`, `name_1`…; packed `rgb` becomes red, green, blue.
+/// A field with several values becomes `name_0`, `name_1`…; packed `rgb` becomes red, green, blue, and `rgba` alpha, too.
 fn named(name: &str, mut column: Vec<Values>) -> Vec<(String, Values)> {
     if column.len() == 1 && (name == "rgb" || name == "rgba") {
         let packed: Option<Vec<u32>> = match &column[0] {
@@ -141,7 +141,15 @@ fn named(name: &str, mut column: Vec<Values>) -> Vec<(String, Values)> {
         };
         if let Some(packed) = packed {
             let part = |shift: u32| Values::U8(packed.iter().map(|&c| (c >> shift) as u8).collect());
-            return vec![("red".into(), part(16)), ("green".into(), part(8)), ("blue".into(), part(0))];
+            let mut parts =
+                vec![("red".into(), part(16)), ("green".into(), part(8)), ("blue".into(), part(0))];
+            // The same 0 or 255 everywhere is what fills the fourth byte.
+            let alpha = |c: &u32| c >> 24;
+            let fills = |c: &u32| [0, 255].contains(&alpha(c)) && alpha(c) == alpha(&packed[0]);
+            if name == "rgba" && !packed.iter().all(fills) {
+                parts.push(("alpha".into(), part(24)));
+            }
+            return parts;
         }
     }
     if column.len() == 1 {

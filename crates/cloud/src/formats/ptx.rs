@@ -9,8 +9,9 @@
 //! x y z intensity r g b   columns × rows points, column by column, colours if there are any; 0 0 0 is no echo
 //! ```
 
-use super::ReadError;
+use super::{ReadError, narrowed};
 use crate::Cloud;
+use crate::points::ReadWarning;
 use geom::Vec3;
 use stream::{Table, Values};
 
@@ -87,11 +88,14 @@ fn numbers<const N: usize>(line: &str) -> Option<[f64; N]> {
 struct Grids {
     points: Vec<Vec3>,
     intensity: Vec<f64>,
-    color: [Vec<u8>; 3],
+    /// NaN in a scan without colours.
+    color: [Vec<f32>; 3],
     row: Vec<i32>,
     column: Vec<i32>,
     scan: Vec<u32>,
-    viewpoints: Vec<Vec3>,
+    /// Where the scanners stood [m], as far as the scans state it; as many as scans.
+    viewpoints: Vec<Option<Vec3>>,
+    warnings: Vec<ReadWarning>,
     has_color: bool,
 }
 
@@ -140,8 +144,25 @@ impl Grids {
             self.column.push((k / rows as usize) as i32);
         }
         self.scan.resize(self.points.len(), scan as u32);
-        self.viewpoints.push(Vec3::from(eye));
+        let eye = self.viewpoint(scan, Vec3::from(eye), pose[3], columns.min(rows) > 1);
+        self.viewpoints.push(eye);
         Ok(())
+    }
+
+    /// Where the scanner stood [m]: as the third line says, or where the pose moves the origin of the scan if that line is zero. Nothing but zeros is
+    /// a place if the scan is a grid; one row or column is how scans that were merged are written.
+    fn viewpoint(&mut self, scan: usize, place: Vec3, shift: Vec3, is_grid: bool) -> Option<Vec3> {
+        let is_zero = |p: &Vec3| p.norm() == 0.0;
+        if !is_zero(&place) && !is_zero(&shift) && (place - shift).norm() > ROUNDED {
+            let [a, b] = [place, shift].map(|p| format!("{} {} {}", p.x, p.y, p.z));
+            let what = format!(
+                "PTX: scan {scan}: its third line says that the scanner stood at {a} m, and its pose at {b} m: the third line counts; \
+                 --seen-from gives another place"
+            );
+            self.warnings.push(ReadWarning::LeftOut(what));
+        }
+        let eye = if is_zero(&place) { shift } else { place };
+        (is_grid || !is_zero(&eye)).then_some(eye)
     }
 
     /// Adds a point, and says how many numbers it has.
@@ -149,10 +170,10 @@ impl Grids {
         let with_color = numbers::<7>(line);
         let (width, [x, y, z, tone], color) = match (with_color, numbers::<4>(line)) {
             (Some([x, y, z, tone, red, green, blue]), _) => (7, [x, y, z, tone], [red, green, blue]),
-            (None, Some(point)) => (4, point, [0.0; 3]),
+            (None, Some(point)) => (4, point, [f64::NAN; 3]),
             _ => return Err(error(number, "x y z intensity, or with red green blue, is expected", line)),
         };
-        if !color.iter().all(|c| (0.0..=255.0).contains(c) && c.fract() == 0.0) {
+        if width == 7 && !color.iter().all(|c| (0.0..=255.0).contains(c) && c.fract() == 0.0) {
             return Err(error(number, "colours are whole numbers from 0 to 255", line));
         }
         let is_echo = [x, y, z] != [0.0; 3];
@@ -161,7 +182,7 @@ impl Grids {
         self.intensity.push(tone);
         self.has_color |= width == 7;
         for (column, value) in self.color.iter_mut().zip(color) {
-            column.push(value as u8);
+            column.push(value as f32);
         }
         Ok(width)
     }
@@ -174,7 +195,7 @@ impl Grids {
         push("intensity", Values::F64(self.intensity))?;
         if self.has_color {
             for (name, column) in ["red", "green", "blue"].into_iter().zip(self.color) {
-                push(name, Values::U8(column))?;
+                push(name, narrowed(column))?;
             }
         }
         push("row", Values::I32(self.row))?;
@@ -182,11 +203,9 @@ impl Grids {
         if self.viewpoints.len() > 1 {
             push("scan", Values::U32(self.scan))?;
         }
-        let mut cloud = Cloud { points: self.points, attributes, double: true, ..Cloud::default() };
-        // As of E57: a scanner at the origin is that of scans that were merged, too.
-        for eye in self.viewpoints.iter().filter(|eye| eye.norm() > 0.0) {
-            cloud.add_viewpoint(eye);
-        }
+        let warnings = self.warnings;
+        let mut cloud = Cloud { points: self.points, attributes, double: true, warnings, ..Cloud::default() };
+        self.viewpoints.iter().flatten().for_each(|eye| cloud.add_viewpoint(eye));
         Ok(cloud)
     }
 }

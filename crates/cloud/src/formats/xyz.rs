@@ -1,15 +1,17 @@
 //! Text: one point per line, as in XYZ, PTS, CSV, ASC and TXT exports.
 //!
 //! Numbers are separated by blanks, tabs, commas or semicolons; decimal commas are refused. Nothing between two commas or semicolons is a
-//! column without a value. Lines that begin with `#` or `//` are comments. A first line of words names the columns, as many as there are. A line with
-//! a single whole number gives the number of points that follow (PTS; again in front of each further scan).
+//! column without a value. Lines that begin with `#` or `//` are comments; the last of them that can
+//! be the names of the columns is it. A first line of words names the columns, as many as there are. A line with a single whole number gives the number of points that follow (PTS; again in front of each further scan).
 
 mod naming;
 
 use super::ReadError;
 use super::text_names::TextColumns;
-use super::xyz_columns::{Header, is_units, pieces, separator, unusual};
+use super::xyz_columns::{Header, Separator, pieces, separator, separator_for, unusual};
+use super::xyz_names::is_units;
 use crate::Cloud;
+use crate::points::ReadWarning;
 use geom::Vec3;
 use std::borrow::Cow;
 use stream::{Table, Values};
@@ -24,7 +26,8 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
     let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
     let text = |b: &u8| matches!(b, b'\t' | b'\n' | b'\r' | b' '..=b'~' | 0x80..);
     let word = |b: &u8| {
-        matches!(b, b'0'..=b'9' | b'-' | b'+' | b'.' | b'#' | b'/' | b'"') || b.is_ascii_alphabetic()
+        matches!(b, b'0'..=b'9' | b'-' | b'+' | b'.' | b'#' | b'/' | b'"' | b',' | b';')
+            || b.is_ascii_alphabetic()
     };
     head.iter().all(text)
         && head.iter().find(|b| !b.is_ascii_whitespace()).is_some_and(word)
@@ -77,10 +80,15 @@ fn decimal_commas(line: &str) -> bool {
     line.contains(';') || (blank && tight) || (comma && tight && !line.contains('.'))
 }
 
+#[derive(Default)]
 struct Rows {
     points: Vec<Vec3>,
     extra: Vec<Vec<f64>>,
     header: Option<Header>,
+    /// Comments that may be the names, with their places among the comments.
+    commented: Vec<(usize, Header)>,
+    /// The line of units below the names.
+    units: Option<String>,
     /// The names that the user gives.
     given: Option<TextColumns>,
     /// Whether a line of names was passed over, because the user gives others.
@@ -98,25 +106,7 @@ struct Rows {
     /// Points that the count lines so far promise.
     promised: Option<usize>,
     comments: Vec<String>,
-}
-
-impl Default for Rows {
-    fn default() -> Rows {
-        Rows {
-            points: Vec::new(),
-            extra: Vec::new(),
-            header: None,
-            given: None,
-            passed_over: false,
-            names: Vec::new(),
-            axes: [0, 1, 2],
-            left_out: Vec::new(),
-            by_tabs: false,
-            width: 0,
-            promised: None,
-            comments: Vec::new(),
-        }
-    }
+    warnings: Vec<ReadWarning>,
 }
 
 /// Comments that are kept.
@@ -139,14 +129,15 @@ impl Rows {
                 return Ok(());
             }
         } else if self.points.is_empty()
-            && self.header.as_ref().is_none_or(|h| h.is_comment)
+            && self.header.is_none()
             && let Some(header) = self.names_in(line, number, false)
         {
             self.header = Some(header);
             return Ok(());
         }
-        let is_named = self.header.as_ref().is_some_and(|h| !h.is_comment) || self.passed_over;
+        let is_named = self.header.is_some() || self.passed_over;
         if self.points.is_empty() && is_named && is_units(line) {
+            self.units = Some(line.trim().to_owned());
             self.comment(number, line.trim());
             return Ok(());
         }
@@ -172,26 +163,29 @@ impl Rows {
         if !self.points.is_empty() {
             return;
         }
-        if self.header.is_none() {
-            self.header = self.names_in(comment, number, true);
-            if self.header.is_some() {
-                return;
-            }
-        }
-        if self.comments.len() < MOST_COMMENTS {
+        if let Some(names) = self.names_in(comment, number, true) {
+            self.commented.truncate(MOST_COMMENTS - 1);
+            self.commented.push((self.comments.len(), names));
+        } else if self.comments.len() < MOST_COMMENTS {
             self.comments.push(comment.to_owned());
         }
     }
 
+    /// What separates the columns of a line.
+    fn separator(&self, line: &str) -> Separator {
+        let left_out = self.left_out.contains(&true).then(|| separator_for(line, self.width)).flatten();
+        left_out.or_else(|| separator(line, self.by_tabs))
+    }
+
     fn point(&mut self, number: usize, line: &str) -> Result<(), ReadError> {
-        if decimal_commas(line) {
+        if self.has_decimal_commas(line) {
             return Err(error(number, "decimal commas: write numbers with a point", line));
         }
         if self.points.is_empty() {
             self.begin(number, line)?;
             self.extra.resize(self.width.saturating_sub(3), Vec::new());
         }
-        let separator = separator(line, self.by_tabs);
+        let separator = self.separator(line);
         let mut values = [0.0; 3];
         let (mut width, mut extra) = (0, 0);
         for word in pieces(line, separator) {
@@ -269,7 +263,7 @@ impl Rows {
             double: true,
             position_column: self.axes.into_iter().min().unwrap_or(0),
             comments: self.comments,
-            ..Cloud::default()
+            warnings: self.warnings,
         })
     }
 }

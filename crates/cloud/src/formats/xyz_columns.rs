@@ -1,5 +1,8 @@
 //! Columns of text: what separates them in a line, and the names that a line gives them.
 
+use super::xyz_names::{for_ply, length_units, without_unit};
+use crate::points::LengthUnit;
+
 /// What separates the columns of a line: one character, between two of which a column may be empty, or (none) any run of blanks, tabs, commas and semicolons.
 pub(super) type Separator = Option<char>;
 
@@ -34,8 +37,19 @@ const NO_VALUE: [&str; 10] =
 pub(super) fn separator(line: &str, tabs: bool) -> Separator {
     let found = [';', ',', '\t'].into_iter().find(|&s| (s != '\t' || tabs) && line.contains(s))?;
     // "1 2 3, 4" is separated by anything.
-    let is_one = |piece: &str| !piece.trim_ascii().contains([' ', '\t']);
-    (!(line.contains(' ') || line.contains('\t')) || line.split(found).all(is_one)).then_some(found)
+    let is_one = |piece: &str| piece.starts_with('"') || !piece.contains([' ', '\t']);
+    let is_plain = !(line.contains(' ') || line.contains('\t'));
+    (is_plain || pieces(line, Some(found)).all(is_one)).then_some(found)
+}
+
+/// The separator that gives a line exactly so many columns; one more of it at the end separates nothing.
+pub(super) fn separator_for(line: &str, columns: usize) -> Separator {
+    let count = |&one: &char| {
+        let found = pieces(line, Some(one));
+        found.clone().count() == columns
+            || found.clone().count() == columns + 1 && found.last().is_some_and(str::is_empty)
+    };
+    [';', ',', '\t'].into_iter().filter(|&one| line.contains(one)).find(count)
 }
 
 /// The columns of a line of numbers.
@@ -45,7 +59,8 @@ pub(super) fn pieces(line: &str, separator: Separator) -> Pieces<'_> {
     Pieces { rest: Some(line.trim_end_matches([' ', '\r'])), separates, is_strict: separator.is_some() }
 }
 
-/// Parts of a line; bytes are looked at, because this takes most of the time of reading.
+/// Parts of a line; bytes are looked at, because this takes most of the time of reading. Quotes hold what separates elsewhere.
+#[derive(Clone)]
 pub(super) struct Pieces<'a> {
     rest: Option<&'a str>,
     separates: [u8; 4],
@@ -59,7 +74,19 @@ impl<'a> Iterator for Pieces<'a> {
         loop {
             let rest = self.rest?;
             let [a, b, c, d] = self.separates;
-            let end = rest.bytes().position(|byte| byte == a || byte == b || byte == c || byte == d);
+            let separates = |byte: u8| byte == a || byte == b || byte == c || byte == d;
+            let from = match rest.as_bytes().first() {
+                Some(b'"') => closing(rest, 0, separates),
+                Some(b' ') if self.is_strict => {
+                    closing(rest, rest.len() - rest.trim_start_matches(' ').len(), separates)
+                }
+                _ => 0,
+            };
+            let end = if from == 0 {
+                rest.bytes().position(separates)
+            } else {
+                rest.bytes().skip(from).position(separates).map(|end| end + from)
+            };
             let piece = match end {
                 Some(end) => {
                     self.rest = rest.get(end + 1..);
@@ -80,6 +107,16 @@ impl<'a> Iterator for Pieces<'a> {
     }
 }
 
+/// Where the quotes end that begin at `from`, if a separator or the end follows; 0 otherwise: a quote within a word is a letter.
+fn closing(text: &str, from: usize, separates: impl Fn(u8) -> bool) -> usize {
+    let Some(inner) = text[from..].strip_prefix('"') else { return 0 };
+    let Some(length) = inner.find('"') else { return 0 };
+    let end = from + length + 2;
+    let behind = &text[end..];
+    let next = behind.trim_ascii_start();
+    if next.len() < behind.len() || next.bytes().next().is_none_or(separates) { end } else { 0 }
+}
+
 /// A number as programs write it besides: in quotes, with the exponents of Fortran, or a word for no value.
 pub(super) fn unusual(word: &str) -> Option<f64> {
     let bare = word.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(word).trim();
@@ -97,6 +134,8 @@ pub(super) struct Header {
     pub(super) line: usize,
     /// Whether it stands behind a mark of a comment, and may be one.
     pub(super) is_comment: bool,
+    /// Whether it may be a sentence: its words are names if there are as many as columns.
+    is_loose: bool,
     splits: Vec<Split>,
 }
 
@@ -116,6 +155,8 @@ pub(super) struct Named {
     pub(super) axes: [usize; 3],
     /// Whether tabs separate them.
     pub(super) by_tabs: bool,
+    /// The units of length that the names of x, y and z give.
+    pub(super) length: Option<[LengthUnit; 3]>,
 }
 
 impl Header {
@@ -127,18 +168,32 @@ impl Header {
         chosen: Option<&[String; 3]>,
     ) -> Option<Header> {
         let strict = [';', ',', '\t'].into_iter().filter(|&s| text.contains(s)).map(Some);
+        // "Columns: x y z"
+        let label = text.split_once(": ").filter(|_| is_comment).map(|(_, names)| names);
         let splits = strict.chain([None]).filter_map(|separator| {
-            let names = split(text, separator);
+            let bare = label.filter(|_| separator.is_none()).unwrap_or(text);
+            let names = split(bare, separator);
             let axes = match chosen {
                 Some(chosen) => Ok(named(&names, chosen)?),
                 None => axes(&names).transpose()?,
             };
-            // A sentence may hold these words anywhere.
-            let is_sentence = is_comment && separator.is_none() && chosen.is_none();
-            (!is_sentence || axes == Ok([0, 1, 2])).then_some(Split { separator, names, axes })
+            Some(Split { separator, names, axes })
         });
         let splits: Vec<Split> = splits.collect();
-        (!splits.is_empty()).then(|| Header { text: text.to_owned(), line, is_comment, splits })
+        // A sentence may hold these words anywhere.
+        let is_sentence = |s: &Split| s.separator.is_none() && (label.is_some() || s.axes != Ok([0, 1, 2]));
+        let is_loose = is_comment && chosen.is_none() && splits.iter().all(is_sentence);
+        (!splits.is_empty()).then(|| Header { text: text.to_owned(), line, is_comment, is_loose, splits })
+    }
+
+    /// Whether its words, if they are names after all, put x, y and z elsewhere than first.
+    pub(super) fn is_in_doubt(&self) -> bool {
+        self.is_loose && self.splits.iter().any(|split| split.axes != Ok([0, 1, 2]))
+    }
+
+    /// How many words it has, if blanks separate them.
+    pub(super) fn words(&self) -> usize {
+        self.splits.last().map_or(0, |split| split.names.len())
     }
 
     /// The names of the columns of a first line of numbers: split as that line is, if it can be; none if it is a comment after all.
@@ -162,11 +217,18 @@ impl Header {
         let wanted = names.len() - usize::from(nameless);
         let found = count - usize::from(is_open && wanted + 1 == count);
         if wanted == found {
-            let names = names.iter().take(wanted).map(|name| for_ply(name)).collect();
+            let names: Vec<String> = names.iter().take(wanted).cloned().collect();
             let axes = axes.clone()?;
-            return Ok(Some(Named { names, axes, by_tabs: separator == Some('\t') }));
+            once(&names, &axes)?;
+            let length = length_units(&axes.map(|axis| names[axis].as_str()));
+            return Ok(Some(Named {
+                names: for_ply(&names),
+                axes,
+                by_tabs: separator == Some('\t'),
+                length,
+            }));
         }
-        if self.is_comment && found == 3 {
+        if self.is_loose || self.is_comment && found == 3 {
             return Ok(None);
         }
         Err(format!(
@@ -243,26 +305,19 @@ fn named(names: &[String], chosen: &[String; 3]) -> Option<[usize; 3]> {
     (x != y && y != z && z != x).then_some([x, y, z])
 }
 
-/// A name without a unit in brackets behind a blank.
-fn without_unit(name: &str) -> &str {
-    let without = |open: &str, close: char| {
-        name.split_once(open).filter(|(_, unit)| unit.ends_with(close)).map(|(name, _)| name.trim())
+/// Refuses a coordinate whose name is that of another column, too.
+fn once(names: &[String], axes: &[usize; 3]) -> Result<(), String> {
+    let again = |axis: usize| {
+        let mut others = (0..names.len()).filter(|&k| k != axis && !names[axis].is_empty());
+        others.find(|&k| names[k].eq_ignore_ascii_case(&names[axis])).map(|other| (axis, other))
     };
-    without(" [", ']').or_else(|| without(" (", ')')).unwrap_or(name)
-}
-
-/// A name that PLY can hold; colours in the spelling of PLY.
-pub(super) fn for_ply(name: &str) -> String {
-    match without_unit(name) {
-        "R" | "r" | "Red" => "red".to_owned(),
-        "G" | "g" | "Green" => "green".to_owned(),
-        "B" | "b" | "Blue" => "blue".to_owned(),
-        other => other.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect(),
+    match axes.iter().find_map(|&axis| again(axis)) {
+        Some((axis, other)) => Err(format!(
+            "columns {} and {} are both named '{}': name all columns with --columns, - for one that is left out",
+            axis.min(other) + 1,
+            axis.max(other) + 1,
+            names[axis]
+        )),
+        None => Ok(()),
     }
-}
-
-/// Whether a line gives units only, as some programs write under the names.
-pub(super) fn is_units(line: &str) -> bool {
-    pieces(line, None)
-        .all(|word| word.len() > 2 && word.starts_with(['[', '(']) && word.ends_with([']', ')']))
 }

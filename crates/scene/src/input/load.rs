@@ -48,7 +48,7 @@ pub const STRAIN_COLUMNS: [LoadColumn; 2] = [("strain", "[–]"), ("stress", "[P
 pub fn read_load(path: &Path, columns: &[LoadColumn; 2]) -> Result<(Vec<[f64; 2]>, usize, String)> {
     let name = path.display().to_string();
     let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
-    let table = csv::csv(&name, &bytes)?;
+    let table = csv::csv(&name, &bytes, |_| false)?;
     let [(first, _), (second, _)] = *columns;
     let [one, other] = columns.map(|(name, unit)| format!("{name} {unit}"));
     let wanted = format!("wanted: t [s], and {one} or {other}");

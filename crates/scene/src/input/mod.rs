@@ -44,7 +44,7 @@ pub enum Input {
 pub fn table_of(path: &Path) -> Result<(String, Table)> {
     let name = path.display().to_string();
     let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
-    let table = csv::csv(&name, &bytes)?;
+    let table = csv::csv(&name, &bytes, |_| false)?;
     Ok((name, table))
 }
 
@@ -132,7 +132,7 @@ fn broken(name: &str, error: McapError) -> SceneError {
 pub fn read_path(path: &Path, has_axis: bool) -> Result<(Vec<PathRow>, String)> {
     let name = path.display().to_string();
     let bytes = stream::whole::file(path).map_err(|e| SceneError::read(path, e))?;
-    let table = csv::csv(&name, &bytes)?;
+    let table = csv::csv(&name, &bytes, |_| false)?;
     let known: &[&str] = if has_axis { &["t", "x", "y", "z", "angle"] } else { &["t", "x", "y", "z"] };
     if let Some(column) = table.columns().iter().find(|c| !known.contains(&c.name.as_str())) {
         let why = format!("has the column '{}', which a motion does not use", column.name);

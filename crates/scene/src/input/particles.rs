@@ -5,7 +5,10 @@ use super::run_walls::{RunContacts, run_walls};
 use crate::error::{Result, SceneError};
 use dem::setup::{KeptContact, Particle};
 use geom::Shown;
-use record::column::{BODY, CLUSTER, DIAMETER, ID, MATERIAL, POSITION, RADIUS, SPIN, VELOCITY};
+use record::column::{
+    BODY, CLUSTER, DIAMETER, ID, MATERIAL, ORIENTATION, ORIENTATION_REAL, POSITION, RADIUS, SCALE,
+};
+use record::column::{SPIN, VELOCITY};
 use record::{ClumpRecord, Columns, LogMessage, MaterialRecord, WallRecord, metadata, topic};
 use std::collections::BTreeSet;
 use std::io::Cursor;
@@ -77,7 +80,7 @@ impl ParticleTable {
             return last_frame(name, &bytes);
         }
         let mut table =
-            if bytes.starts_with(b"ply") { vertices(&name, &bytes)? } else { csv(&name, &bytes)? };
+            if bytes.starts_with(b"ply") { vertices(&name, &bytes)? } else { csv(&name, &bytes, is_unused)? };
         if factor != 1.0 {
             for column in [&POSITION[..], &VELOCITY, &[RADIUS, DIAMETER]].concat() {
                 let Some(values) = table.get(column).map(Values::to_f64) else { continue };
@@ -160,6 +163,12 @@ const CLASS: &str = "class";
 fn known() -> Vec<&'static str> {
     let sizes: &[&str] = &[RADIUS, DIAMETER];
     [&[ID], &POSITION[..], sizes, &VELOCITY, &SPIN, &[CLUSTER]].concat()
+}
+
+/// Whether no particle and no clump has a column of this name: it may lack values.
+fn is_unused(column: &str) -> bool {
+    let of_clumps = [&ORIENTATION[..], &[ORIENTATION_REAL, SCALE]].concat();
+    !known().contains(&column) && column != MATERIAL && !of_clumps.contains(&column)
 }
 
 impl ParticleFile {
@@ -268,7 +277,7 @@ mod tests {
     use super::*;
 
     fn file(name: &str, text: &[u8]) -> Result<ParticleFile> {
-        let (name, table) = (name.to_owned(), csv(name, text)?);
+        let (name, table) = (name.to_owned(), csv(name, text, is_unused)?);
         ParticleTable::listed(name, table).particles()
     }
 
@@ -286,7 +295,7 @@ mod tests {
         };
         let mut writer = Writer::new(Vec::new(), &Provenance::default()).unwrap();
         for (time, ids) in [(1, 0..2), (2, 10..13), (2, 20..21)] {
-            let table = csv("a.csv", b"x,y,z,radius\n0,1,2,0.5\n").unwrap();
+            let table = csv("a.csv", b"x,y,z,radius\n0,1,2,0.5\n", is_unused).unwrap();
             writer.points(topic::PARTICLES, time, FRAME, table).unwrap();
             let rows: Vec<KeptContact> = ids.map(contact).collect();
             writer.points(topic::HISTORY, time, FRAME, to_table(&rows)).unwrap();
@@ -307,6 +316,10 @@ mod tests {
         let note =
             "pl.csv: column 'v_z' is not used; known: id x y z radius diameter vx vy vz wx wy wz cluster";
         assert_eq!(found.warning.as_deref(), Some(note));
+        // The index of a data frame, and notes.
+        let found = file("i.csv", b",x,y,z,radius,note\n0,1,2,3,0.5,\n1,4,5,6,0.5,wet\n").unwrap();
+        assert_eq!(found.particles[1].position.x, 4.0);
+        assert!(found.warning.is_some_and(|told| told.contains("'(unnamed)', 'note' are not used")));
         // As spreadsheets and data frames write it.
         let quoted = b"\"id\",\"x\",\"y\",\"z\",\"radius\"\n\"4\",0,1,\"2\",0.5\n";
         let first = file("q.csv", quoted).unwrap().particles[0];

@@ -5,7 +5,7 @@
 //! read     header, declarations and metadata; messages by time, those of one time in the order of the file; the metadata that end a stream
 //! ```
 //!
-//! A file whose channels are in order is read as it is, and so is one that has no end yet, or is not MCAP: [`super::Reader`] says what is wrong with it. A pipe
+//! A file whose channels are in order, with its end behind them, is read as it is, and so is one that has no end yet, or is not MCAP: [`super::Reader`] says what is wrong with it. A pipe
 //! cannot be looked at.
 
 use super::walk::{Place, Walk};

@@ -36,7 +36,7 @@ pub(super) struct Entry {
 /// What a file holds.
 #[derive(Debug, Default)]
 pub(super) struct Walk {
-    /// Whether messages of a channel go back in time.
+    /// Whether messages of a channel go back in time, or follow what ends the stream.
     pub is_mixed: bool,
     /// Place of the header [B].
     pub header: u64,
@@ -179,9 +179,10 @@ impl Walk {
             }
         }
         self.open.sort_by_key(|entry| entry.place);
+        let ended = self.metadata.iter().filter(|(_, ends)| *ends).map(|(place, _)| *place).min();
         for entry in &self.open {
             let last = self.last_ns.entry(entry.channel).or_insert(0);
-            self.is_mixed |= entry.time_ns < *last;
+            self.is_mixed |= entry.time_ns < *last || ended.is_some_and(|end| end < entry.place);
             *last = entry.time_ns.max(*last);
         }
         if keep {

@@ -19,12 +19,25 @@ const MESSAGES: [(&str, u64, &str); 8] = [
 
 /// A file of another program: two messages a chunk.
 fn file(options: WriteOptions, messages: &[(&str, u64, &str)]) -> Vec<u8> {
+    written(options, messages, false)
+}
+
+/// The same with the record that ends the stream in front of the messages.
+fn end_first(options: WriteOptions, messages: &[(&str, u64, &str)]) -> Vec<u8> {
+    written(options, messages, true)
+}
+
+fn written(options: WriteOptions, messages: &[(&str, u64, &str)], is_end_first: bool) -> Vec<u8> {
     let mut writer = options.create(Cursor::new(Vec::new())).unwrap();
     let note = |name: &str, key: &str, value: &str| ::mcap::records::Metadata {
         name: name.to_owned(),
         metadata: one(key, value),
     };
     writer.write_metadata(&note("scene", "toml", "gravity = 1")).unwrap();
+    let end = note(END_OF_STREAM, "messages", &messages.len().to_string());
+    if is_end_first {
+        writer.write_metadata(&end).unwrap();
+    }
     for (k, (topic, log_time, text)) in (0u32..).zip(messages) {
         let schema_id = writer.add_schema("any", "jsonschema", b"{}").unwrap();
         let channel_id = writer.add_channel(schema_id, topic, "json", &BTreeMap::new()).unwrap();
@@ -34,7 +47,9 @@ fn file(options: WriteOptions, messages: &[(&str, u64, &str)]) -> Vec<u8> {
             writer.flush().unwrap();
         }
     }
-    writer.write_metadata(&note(END_OF_STREAM, "messages", &messages.len().to_string())).unwrap();
+    if !is_end_first {
+        writer.write_metadata(&end).unwrap();
+    }
     writer.finish().unwrap();
     writer.into_inner().into_inner()
 }
@@ -100,6 +115,19 @@ fn messages_of_a_file_come_in_the_order_of_time() {
         let mut all = Vec::new();
         one_by_one.read_to_end(&mut all).unwrap();
         assert_eq!(texts(Slow(&all)).unwrap(), expected, "{k}");
+    }
+}
+
+/// A file of a program that writes all metadata first, or before the chunk that is open: what ends the stream comes last.
+#[test]
+fn what_ends_a_stream_may_stand_in_front_of_its_messages() {
+    let mut sorted = MESSAGES;
+    sorted.sort_by_key(|(_, time_ns, _)| *time_ns);
+    let wanted = texts(&file(WriteOptions::new(), &sorted)[..]).unwrap();
+    for (k, options) in ways().into_iter().enumerate() {
+        let bytes = end_first(options, &sorted);
+        assert!(texts(&bytes[..]).is_err(), "{k}: from a pipe it cannot be known");
+        assert_eq!(texts(in_order(Cursor::new(&bytes)).unwrap()).unwrap(), wanted, "{k}");
     }
 }
 
