@@ -210,7 +210,7 @@ pub fn from_bytes_as(bytes: Vec<u8>, columns: Option<&TextColumns>) -> Result<Cl
     Ok(cloud)
 }
 
-/// Whole numbers of which not each has an 8-byte number of its own, up to the longest that files hold: 2⁵³ to 2⁶⁴.
+/// Whole numbers that share an 8-byte number with their neighbours, up to the longest that files hold: 2⁵³ to 2⁶⁴.
 const LONG: std::ops::RangeInclusive<f64> = 9_007_199_254_740_992.0..=18_446_744_073_709_551_616.0;
 
 /// Says which columns hold whole numbers whose last digits are lost, as times in nanoseconds.
