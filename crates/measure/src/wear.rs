@@ -112,7 +112,7 @@ impl Wear {
                 }
             },
         };
-        let normal = contact.force.dot(&contact.normal);
+        let normal = contact.force.dot(&contact.normal).abs();
         borne.normal += normal;
         borne.now += normal;
         borne.work += contact.work;

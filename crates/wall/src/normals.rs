@@ -3,7 +3,8 @@
 //! Neighbours take their side from each other, most alike normals first (the spanning tree of least 1 − |nᵢ·nⱼ|; Hoppe et al. 1992,
 //! doi:10.1145/133994.134011), so that a side goes around a sharp edge where the surface bends least, and the walls of a half pipe that
 //! lean past the vertical still face inwards. A piece that hangs together starts from the point whose normal agrees best with the
-//! direction of the flow side, or from the one nearest to a position in the flow: its own plane decides on which side that is.
+//! direction of the flow side, or from the one nearest to a position in the flow: its own plane decides on which side that is. Where a direction is
+//! given, all of the piece decides, most where it lies squarely to it: a single point may be one of a rim.
 
 use geom::Vec3;
 use std::cmp::Reverse;
@@ -88,16 +89,23 @@ pub fn oriented(points: &[Vec3], normals: &[Vec3], pairs: &[(u32, u32)], flow: F
             continue;
         }
         turn(&mut turned[start as usize], &flow.seen_from(&points[start as usize], &normals[start as usize]));
+        let mut piece = Vec::new();
         let mut steps = BinaryHeap::from([Step { alike: 1.0, to: Reverse(start), from: Reverse(start) }]);
         while let Some(Step { to: Reverse(i), from: Reverse(before), .. }) = steps.pop() {
             if std::mem::replace(&mut done[i as usize], true) {
                 continue;
             }
+            piece.push(i);
             let like = turned[before as usize];
             turn(&mut turned[i as usize], &like);
             for &j in links[i as usize].iter().filter(|&&j| !done[j as usize]) {
                 steps.push(Step { alike: alike(i, j), to: Reverse(j), from: Reverse(i) });
             }
+        }
+        if let Flow::Towards(facing) = flow
+            && piece.iter().map(|&i| turned[i as usize].dot(&facing).powi(3)).sum::<f64>() < 0.0
+        {
+            piece.iter().for_each(|&i| turned[i as usize] = -turned[i as usize]);
         }
     }
     turned

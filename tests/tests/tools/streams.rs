@@ -53,7 +53,7 @@ fn a_run_that_ends_with_the_record_of_its_inlet_is_not_warned_of_it() {
         done(f, "stage-replay up.mcap --keep-times -q -o in.mcap");
         for (until, warned) in [("0.1", false), ("0.102", true)] {
             let said = done(f, &format!("dem-run downstream.toml in.mcap --until {until} -o down.mcap"));
-            let told = said.contains("inlet.0: the record ends at t = 0.1 s while grains still came in");
+            let told = said.contains("inlet.0: the record ends at t = ");
             assert_eq!(told, warned, "{motion}, {until}: {said}");
         }
     }

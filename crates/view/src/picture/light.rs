@@ -163,8 +163,9 @@ impl<'a> Shaded<'a> {
             body.iter().for_each(|&body| kin.join(spheres.len() + n, body));
         }
         let usual = spheres.usual_radius();
-        let depths = splat(&spheres, &rods, lens);
+        // First: it lets go of its tiles, of which those of the picture stay.
         let shadow = Shadow::of(&spheres, &rods, &kin, usual, lens, extent);
+        let depths = splat(&spheres, &rods, lens);
         Shaded { depths, shadow, spheres, rods, kin, reach: 4.0 * usual }
     }
 

@@ -88,3 +88,26 @@ fn spheres_stick_out_where_the_surface_bends_outwards_more_tightly_than_they_do(
     let (_, report) = build(&shaken(20, 0.01, 0.002), &everywhere(0.001), &settings).unwrap();
     assert_eq!(report.bulges, None, "a plate");
 }
+
+/// The lips of a channel lie as squarely to the flow as its floor does, and face away; whichever point comes first, the floor decides.
+#[test]
+fn a_channel_whose_lips_bend_inwards_is_open_upwards() {
+    let p = 0.01;
+    // Half of the section, from the lip over the wall to the middle of the floor.
+    let half = (4..6).map(|k| (p * f64::from(k), 0.1)).chain((0..10).map(|k| (0.05, p * f64::from(k))));
+    let half: Vec<(f64, f64)> = half.chain((1..5).map(|k| (p * f64::from(k), 0.0))).collect();
+    let middle = [(0.0, 0.0)];
+    let section: Vec<(f64, f64)> =
+        half.iter().map(|(x, z)| (-x, *z)).chain(half.iter().copied()).chain(middle).collect();
+    let mut points: Vec<Vec3> = (0..14)
+        .flat_map(|row| section.iter().map(move |(x, z)| Vec3::new(*x, p * f64::from(row), *z)))
+        .collect();
+    for lips_first in [true, false] {
+        points.sort_by(|a, b| if lips_first { b.z.total_cmp(&a.z) } else { a.z.total_cmp(&b.z) });
+        let settings = WallSettings { facing: Some(Vec3::z()), ..surface(0.004) };
+        let (wall, _) = build(&points, &everywhere(0.001), &settings).unwrap();
+        let of_floor = points.iter().zip(&wall.centres).filter(|(q, _)| q.z == 0.0 && q.x.abs() < 0.03);
+        assert!(of_floor.clone().count() > 50);
+        assert!(of_floor.clone().all(|(q, c)| c.z < q.z), "lips first: {lips_first}");
+    }
+}
