@@ -80,6 +80,9 @@ def matrix(q):
 def truth(scans):
     """What a cloud of the scans has."""
     points, columns, rows = [], {}, 0
+    colors = ("colorRed", "colorGreen", "colorBlue")
+    # Scans whose colours have other limits are brought to 0 to 255.
+    limits = {fields[c][0][1:3] for fields, _ in scans for c in colors if c in fields}
     for number, (fields, pose) in enumerate(scans):
         value = {name: np.asarray(values, float) for name, (_, values) in fields.items()}
         turn, shift = (matrix(pose[0]), np.asarray(pose[1])) if pose else (np.eye(3), np.zeros(3))
@@ -102,8 +105,10 @@ def truth(scans):
             if off is not None:
                 value[of] = np.where(off != 0, hidden, value[of])
         off = value.pop("isColorInvalid", None)
+        if len(limits) > 1 and "colorRed" in value:
+            value |= {c: np.round(255.0 * (value[c] - fields[c][0][1]) / (fields[c][0][2] - fields[c][0][1])) for c in colors}
         if off is not None:
-            value |= {c: np.where(off != 0, 0, value[c]) for c in ("colorRed", "colorGreen", "colorBlue")}
+            value |= {c: np.where(off != 0, np.nan, value[c]) for c in colors}
         if len(scans) > 1:
             value["scan"] = np.full(len(local), float(number))
         for name, numbers in value.items():
@@ -111,8 +116,8 @@ def truth(scans):
         rows += len(local)
     whole_columns = {}
     for name, parts in columns.items():
-        # What a scan lacks: indices −1, colours 0, everything else no number.
-        none = -1.0 if name in ("row", "column") else 0.0 if name in ("red", "green", "blue") else np.nan
+        # What a scan lacks: indices −1, everything else no number.
+        none = -1.0 if name in ("row", "column") else np.nan
         whole_columns[name] = np.full(rows, none)
         for at, numbers in parts:
             whole_columns[name][at:at + len(numbers)] = numbers

@@ -169,7 +169,8 @@ mod tests {
             ("mesh:/x/a.ply", "cannot read the mesh"),
         ] {
             let error = add_regions(&mut Rules::default(), &region(shape), Path::new("/plant")).unwrap_err();
-            assert!(error.to_string().contains(part), "{error}");
+            let cause = std::error::Error::source(&error).map(ToString::to_string).unwrap_or_default();
+            assert!(cause.contains(part), "{error}: {cause}");
         }
     }
 }

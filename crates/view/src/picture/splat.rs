@@ -140,19 +140,20 @@ impl Depths {
         self.first += above;
         let rows = to.min(height).div_ceil(TILE);
         let across = width.div_ceil(TILE);
-        let tiles: Vec<Tile> = (self.drawn * across..(rows * across).max(self.drawn * across))
-            .into_par_iter()
-            .map(|number| self.tile(number, spheres, lens))
-            .collect();
-        for row in tiles.chunks(across) {
-            let [_, _, top, bottom] = row[0].area;
+        let more = width * (rows * TILE).min(height).saturating_sub(self.drawn * TILE);
+        self.depth.reserve_exact(more);
+        self.ball.reserve_exact(more);
+        for row in self.drawn..rows {
+            let numbers = row * across..(row + 1) * across;
+            let draw = |number| self.tile(number, spheres, lens);
+            let tiles: Vec<Tile> = numbers.clone().into_par_iter().map(draw).collect();
+            let [_, _, top, bottom] = tiles[0].area;
             for y in 0..bottom - top {
-                row.iter().for_each(|tile| tile.add_row(y, &mut self.depth, &mut self.ball));
+                tiles.iter().for_each(|tile| tile.add_row(y, &mut self.depth, &mut self.ball));
             }
-        }
-        for lists in &mut self.lists {
-            let drawn = self.drawn * across..(rows * across).max(self.drawn * across);
-            lists[drawn].iter_mut().for_each(|list| *list = Vec::new());
+            for lists in &mut self.lists {
+                lists[numbers.clone()].iter_mut().for_each(|list| *list = Vec::new());
+            }
         }
         self.drawn = self.drawn.max(rows);
     }
