@@ -1,6 +1,7 @@
 //! What is measured of a run: by dem-measure, a value of its summary or a column of its rows.
 
 use super::script::Job;
+use super::work::is_ended;
 use crate::study::CurveError;
 use serde_json::Value;
 use std::path::Path;
@@ -107,6 +108,10 @@ impl Measure {
             command.arg(job.file("run.mcap")).args(&self.options).args(["--json", "-q", "-o"]).arg(&kept);
             let start = format!("{}: cannot be started", program.display());
             let done = command.output().map_err(CurveError::io(start))?;
+            if is_ended(done.status) {
+                let why = "stopped by a signal while runs were measured: the same command continues";
+                return Err(CurveError::Signal(why.to_owned()));
+            }
             if !done.status.success() {
                 return Err(CurveError::Failed(String::from_utf8_lossy(&done.stderr).trim().to_owned()));
             }
