@@ -1,6 +1,6 @@
 //! Fidelity: the plant undivided and cut, by place of the cut, motion and length of the zone, stiffness and step.
 
-use crate::page::{SMALL, put, table};
+use crate::page::{SMALL, difference, put, table};
 use crate::picture::{Panel, draw};
 use crate::plant::{CUTS, Cut, Found, QUANTITIES, Setting, seen};
 use measure::statistics::Mean;
@@ -144,16 +144,15 @@ fn cell(all: &[Runs], runs: &Runs, (at, k): (usize, usize), seeds: usize) -> Str
         .filter_map(|s| Some((runs.seen(at, s)?.values[k], whole.seen(at, s)?.values[k])))
         .filter(|(a, b)| a.is_finite() && b.is_finite())
         .collect();
-    let difference = Mean::of(&pairs.iter().map(|(a, b)| a - b).collect::<Vec<_>>());
+    let differ = Mean::of(&pairs.iter().map(|(a, b)| a - b).collect::<Vec<_>>());
     let scale = Mean::of(&pairs.iter().map(|p| p.1).collect::<Vec<_>>()).mean;
     let angle = k == 5;
     let (factor, unit) = if angle { (1.0, "°") } else { (100.0 / scale, " %") };
-    let (mean, off) = (difference.mean * factor, (difference.interval * factor).abs());
+    let (mean, off) = (differ.mean * factor, (differ.interval * factor).abs());
     if !(mean.is_finite() && off.is_finite()) {
         return "–".to_owned();
     }
-    let text = format!("{mean:+.1} ± {off:.1}{unit}");
-    if mean.abs() > off { format!("**{text}**") } else { text }
+    difference(mean, off, unit)
 }
 
 /// Mean of curves of one setting over the seeds, point by point.

@@ -1,7 +1,7 @@
 //! Mouths: a cone and a slot (pipelines/stages/mouth.toml), cut at the mouth and below it, with and without a settled bed, and with a
 //! lid that opens half.
 
-use crate::page::{MOUTH, put, table};
+use crate::page::{MOUTH, difference, put, table};
 use crate::plant::scenes;
 use crate::shell::{line, measure, summary};
 use measure::statistics::Mean;
@@ -91,8 +91,7 @@ fn section(folder: &Path, case: &Case, seeds: usize) -> Result<String, String> {
                 let differ: Vec<f64> =
                     runs.iter().map(|(s, found)| 100.0 * (found[q] / whole[*s][q] - 1.0)).collect();
                 let Mean { mean, interval, .. } = Mean::of(&differ);
-                let text = format!("{mean:+.1} ± {interval:.1} %");
-                if mean.abs() > interval { format!("**{text}**") } else { text }
+                difference(mean, interval, " %")
             };
             let held: Vec<f64> = runs.iter().map(|(_, found)| 100.0 * found[2]).collect();
             let held =

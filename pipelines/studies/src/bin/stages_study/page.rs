@@ -26,6 +26,12 @@ pub fn put(folder: &Path, page: &Path, (name, scene): (&str, &str), text: &str) 
     line(&scenes(), &format!("./section.sh '{}' {name} < '{}'", page?.display(), file?.display())).map(|_| ())
 }
 
+/// A difference and its interval in one unit; bold where the interval does not include zero.
+pub fn difference(mean: f64, interval: f64, unit: &str) -> String {
+    let text = format!("{mean:+.1} ± {interval:.1}{unit}");
+    if mean.abs() > interval { format!("**{text}**") } else { text }
+}
+
 /// A table in Markdown.
 pub fn table(columns: &[&str], rows: &[Vec<String>]) -> String {
     let mut text = format!("\n| {} |\n|{}\n", columns.join(" | "), "---|".repeat(columns.len()));
