@@ -1,21 +1,12 @@
 //! Files whose numbers would change a scan silently, or take memory and time out of proportion to their length: refused.
 
+mod shared;
+
 use cloud::fill::{FillError, Settings};
 use cloud::{Cloud, from_bytes};
 use geom::Vec3;
+use shared::refused;
 use std::io::Cursor;
-
-/// The error and its causes on one line.
-fn refused(bytes: impl AsRef<[u8]>) -> String {
-    let error = from_bytes(bytes.as_ref().to_vec()).unwrap_err();
-    let mut text = error.to_string();
-    let mut cause = std::error::Error::source(&error);
-    while let Some(c) = cause {
-        text += &format!(": {c}");
-        cause = c.source();
-    }
-    text
-}
 
 /// One point, in a pose that is turned by this quaternion (w, x).
 fn e57(w: f64, x: f64) -> Vec<u8> {

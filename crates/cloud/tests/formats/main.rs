@@ -6,24 +6,15 @@ mod e57;
 mod las;
 mod pcd;
 mod ply;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod text;
 
 use cloud::{Cloud, from_bytes};
+use shared::refused;
 
 fn read(bytes: impl AsRef<[u8]>) -> Cloud {
     from_bytes(bytes.as_ref().to_vec()).unwrap()
-}
-
-/// The error and its causes on one line.
-fn refused(bytes: impl AsRef<[u8]>) -> String {
-    let error = from_bytes(bytes.as_ref().to_vec()).unwrap_err();
-    let mut text = error.to_string();
-    let mut cause = std::error::Error::source(&error);
-    while let Some(c) = cause {
-        text += &format!(": {c}");
-        cause = c.source();
-    }
-    text
 }
 
 fn column(cloud: &Cloud, name: &str) -> Vec<f64> {
