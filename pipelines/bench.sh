@@ -234,8 +234,8 @@ caption() {
             printf "%s: triad %s GB/s, adds and multiplies %s, divisions %s, roots %s thousand millions a second (f64, %s lanes).\n",
                 t == 1 ? "one thread" : "two threads", v["bandwidth"], v["add_multiply"], v["divide"], v["root"], w }' "limits-$threads"
     done
-    echo "\`crates/dem/examples/limits/kernels.rs\` has the bytes and operations of a particle and a contact: everything that a step reads or"
-    echo "writes, once, as if no cache kept it until the next step. So caches can lead to more than 100 % of memory. A test counts the operations (\`crates/dem/src/passes/operations.rs\`)."
+    echo "\`crates/engine/dem/examples/limits/kernels.rs\` has the bytes and operations of a particle and a contact: everything that a step reads or"
+    echo "writes, once, as if no cache kept it until the next step. So caches can lead to more than 100 % of memory. A test counts the operations (\`crates/engine/dem/src/passes/operations.rs\`)."
     awk -F'|' 'sub(/^\+ /, "", $1) && before {
             if (!n++) printf "\n"
             printf "With %s a step takes %.2f times the time of the row above and %.2f times its arithmetic.\n", $1, before / $2, allowed / $3

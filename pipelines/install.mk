@@ -1,6 +1,6 @@
 # make install PREFIX=…: the tools, their man pages, completions for bash, zsh and fish, and the rules of plants.
 .PHONY: install uninstall
-ALL_TOOLS := $(notdir $(patsubst %/,%,$(dir $(wildcard ../tools/*/Cargo.toml))))
+ALL_TOOLS := $(notdir $(patsubst %/,%,$(dir $(wildcard ../tools/*/*/Cargo.toml))))
 PREFIX ?= /usr/local
 SHARE = $(DESTDIR)$(PREFIX)/share
 install: build ## install the tools, their man pages and completions, and plant.mk below PREFIX (/usr/local)

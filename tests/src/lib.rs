@@ -16,6 +16,7 @@ pub mod scenes;
 pub mod setups;
 pub mod sphere_walls;
 pub mod tools;
+pub mod tree;
 pub mod written;
 
 use std::io::Write;

@@ -1,6 +1,7 @@
 //! The shape of the code: the engine's imports go down its layers, and files stay small enough to read.
 
-use std::collections::BTreeSet;
+use grainpipe_tests::tree::{packages, root, sources};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -27,21 +28,6 @@ const LAYERS: [&str; 16] = [
 /// Lines that a file may have, tests apart.
 const LONGEST: usize = 350;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-/// All Rust files under a folder, without what is built.
-fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()) {
-        if entry.is_dir() && entry.file_name() != Some("target".as_ref()) {
-            files(&entry, found);
-        } else if entry.extension() == Some("rs".as_ref()) {
-            found.push(entry);
-        }
-    }
-}
-
 /// Names of the top-level modules that a line of code names by `crate::`.
 fn modules(line: &str) -> impl Iterator<Item = &str> {
     let code = line.split("//").next().unwrap_or_default();
@@ -52,9 +38,8 @@ fn modules(line: &str) -> impl Iterator<Item = &str> {
 
 #[test]
 fn imports_of_the_engine_go_down_its_layers() {
-    let source = root().join("crates/dem/src");
-    let mut all = Vec::new();
-    files(&source, &mut all);
+    let source = root().join("crates/engine/dem/src");
+    let all = sources(&source);
     let mut wrong = BTreeSet::new();
     for file in all.iter().filter(|file| !file.ends_with("lib.rs")) {
         let own = file.strip_prefix(&source).expect("below").iter().next().expect("a name");
@@ -71,9 +56,7 @@ fn imports_of_the_engine_go_down_its_layers() {
 
 #[test]
 fn no_file_is_too_long_to_read() {
-    let mut all = Vec::new();
-    files(&root().join("crates"), &mut all);
-    files(&root().join("tools"), &mut all);
+    let all = [sources(&root().join("crates")), sources(&root().join("tools"))].concat();
     let is_test = |file: &&PathBuf| {
         let inside = file.strip_prefix(root()).expect("below the root");
         inside.components().any(|part| part.as_os_str() == "tests") || file.ends_with("tests.rs")
@@ -84,41 +67,90 @@ fn no_file_is_too_long_to_read() {
     assert!(long.is_empty(), "above {LONGEST} lines: {long:#?}");
 }
 
-/// The table of `crates/README.md` names each crate of the workspace with the crates that it uses.
-#[test]
-fn arrows_between_crates_are_those_of_their_manifests() {
-    let readme = fs::read_to_string(root().join("crates/README.md")).expect("it is there");
-    let table = readme.split("```").nth(1).expect("a table");
-    let told: Vec<String> = table
-        .lines()
-        .skip(1)
+/// A line `name … → used, used` of the first block of a page, as `name → used, used`.
+fn told(page: &Path) -> Vec<String> {
+    let text = fs::read_to_string(page).unwrap_or_else(|e| panic!("{}: {e}", page.display()));
+    let table = text.split("```").nth(1).unwrap_or_else(|| panic!("{}: no table", page.display()));
+    let lines = table.lines().skip(1).filter(|line| !line.starts_with(' '));
+    lines
         .map(|line| {
             let (text, uses) = line.split_once('→').unwrap_or((line, ""));
-            format!(
-                "{} → {}",
-                text.split(' ').next().unwrap_or_default(),
-                sorted(uses.split(',').map(str::trim))
-            )
+            let name = text.split(' ').next().unwrap_or_default();
+            format!("{name} → {}", sorted(uses.split(',').map(str::trim)))
         })
+        .collect()
+}
+
+/// Packages of `crates`, by name: their room, and the names that their manifest uses of them.
+fn crates() -> BTreeMap<String, (String, Vec<String>)> {
+    let rooms: BTreeMap<String, String> = packages("crates")
+        .iter()
+        .filter_map(|path| path.split_once('/'))
+        .map(|(room, name)| (name.to_owned(), room.to_owned()))
         .collect();
-    let mut true_ones = Vec::new();
-    let crates: BTreeSet<String> = fs::read_dir(root().join("crates"))
-        .expect("a folder")
-        .map(|entry| entry.expect("an entry"))
-        .filter(|entry| entry.path().join("Cargo.toml").exists())
-        .map(|entry| entry.file_name().to_string_lossy().into_owned())
-        .collect();
-    for name in &crates {
-        let manifest =
-            fs::read_to_string(root().join(format!("crates/{name}/Cargo.toml"))).expect("it is there");
+    let uses = |room: &str, name: &str| {
+        let manifest = root().join(format!("crates/{room}/{name}/Cargo.toml"));
+        let manifest = fs::read_to_string(manifest).expect("it is there");
         let (_, rest) = manifest.split_once("\n[dependencies]\n").unwrap_or_default();
         let section = rest.split("\n[").next().unwrap_or_default();
         let used = section.lines().map(|line| line.split(['.', ' ']).next().unwrap_or_default());
-        true_ones.push(format!("{name} → {}", sorted(used.filter(|used| crates.contains(*used)))));
+        used.filter(|used| rooms.contains_key(*used)).map(str::to_owned).collect()
+    };
+    rooms.iter().map(|(name, room)| (name.clone(), (room.clone(), uses(room, name)))).collect()
+}
+
+/// The README of each room names its crates with the crates that they use, and `crates/README.md` the rooms.
+#[test]
+fn arrows_between_crates_are_those_of_their_manifests() {
+    let crates = crates();
+    let mut rooms: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for (room, used) in crates.values() {
+        let others = used.iter().map(|name| crates[name].0.as_str()).filter(|other| other != room);
+        rooms.entry(room).or_default().extend(others);
     }
-    let of_crates: Vec<String> = true_ones.iter().filter(|arrow| !told.contains(arrow)).cloned().collect();
-    assert!(of_crates.is_empty(), "crates/README.md tells others than these: {of_crates:#?}");
-    assert_eq!(told.iter().filter(|line| line.len() > 4).count(), crates.len(), "{told:#?}");
+    let mut wrong = Vec::new();
+    let mut compare = |page: PathBuf, arrows: Vec<String>| {
+        let mut told = told(&page);
+        told.sort();
+        if told != arrows {
+            wrong.push(format!("{}: tells {told:#?}, these are {arrows:#?}", page.display()));
+        }
+    };
+    let arrow = |name: &str, used: String| format!("{name} → {used}");
+    for room in rooms.keys() {
+        let of_room = crates.iter().filter(|(_, (its, _))| its == room);
+        let arrows = of_room.map(|(name, (_, used))| arrow(name, sorted(used.iter().map(String::as_str))));
+        compare(root().join("crates").join(room).join("README.md"), arrows.collect());
+    }
+    let arrows = rooms.iter().map(|(room, used)| arrow(room, sorted(used.iter().copied()))).collect();
+    compare(root().join("crates/README.md"), arrows);
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Rooms stand above what they use, none has more than seven crates or tools, and tools have the rooms of the crates.
+#[test]
+fn rooms_are_small_and_in_order() {
+    let crates = crates();
+    let pages = fs::read_to_string(root().join("crates/README.md")).expect("it is there");
+    let order: Vec<String> = told(&root().join("crates/README.md"))
+        .iter()
+        .map(|line| line.split(' ').next().unwrap_or_default().to_owned())
+        .collect();
+    let height =
+        |room: &str| order.iter().position(|name| name == room).unwrap_or_else(|| panic!("{room}: {pages}"));
+    for (name, (room, used)) in &crates {
+        for other in used.iter().filter(|other| height(&crates[*other].0) > height(room)) {
+            panic!("{room}/{name} uses {other}, whose room stands above");
+        }
+    }
+    for of in ["crates", "tools"] {
+        let mut count: BTreeMap<String, usize> = BTreeMap::new();
+        for package in packages(of) {
+            *count.entry(package.split('/').next().unwrap_or_default().to_owned()).or_default() += 1;
+        }
+        assert!(count.values().all(|n| *n <= 7), "{of}: {count:?}");
+        assert!(count.keys().all(|room| order.contains(room)), "{of}: {count:?}");
+    }
 }
 
 fn sorted<'a>(names: impl Iterator<Item = &'a str>) -> String {

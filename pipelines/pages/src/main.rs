@@ -6,7 +6,7 @@ use clap_complete::{Shell, generate_to};
 use serde::Deserialize;
 use std::{fs, path::Path};
 
-/// What a tool prints for `--describe-arguments` (crates/cli/src/describe.rs).
+/// What a tool prints for `--describe-arguments` (crates/base/cli/src/describe.rs).
 #[derive(Deserialize)]
 struct Tool {
     name: String,

@@ -9,8 +9,13 @@ const PAGES: &str = env!("CARGO_BIN_EXE_grainpipe-pages");
 /// The tools, built beside the program of the pages.
 fn tools() -> Vec<PathBuf> {
     let beside = Path::new(PAGES).parent().expect("a folder");
-    let folders = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tools")).expect("the tools");
-    let folders = folders.map(|entry| entry.expect("an entry").path()).filter(|path| path.is_dir());
+    let below = |folder: &Path| {
+        let entries =
+            std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+        entries.filter(|path| path.is_dir()).collect::<Vec<PathBuf>>()
+    };
+    let rooms = below(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tools")));
+    let folders = rooms.iter().flat_map(|room| below(room));
     let tools: Vec<PathBuf> = folders.map(|path| beside.join(path.file_name().expect("a name"))).collect();
     for tool in &tools {
         assert!(tool.exists(), "{} is missing: build the tools first, cargo build --bins", tool.display());

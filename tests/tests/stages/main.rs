@@ -14,6 +14,7 @@ mod replays;
 
 use grainpipe_tests::scenes::{ABOVE, AT, SINTER, folder, write};
 use grainpipe_tests::tools::{line, succeed, tool};
+use grainpipe_tests::tree::root;
 use stages::outlet::crossing::{CrossingRow, from_table};
 use std::fs;
 use std::path::Path;
@@ -241,7 +242,7 @@ fn a_zone_shorter_than_the_largest_particle_is_refused_everywhere() {
 #[test]
 fn the_plant_of_the_pipelines_can_be_cut_at_its_mouth() {
     let folder = tempdir().unwrap();
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../pipelines/scenes/plant.toml");
+    let scene = root().join("pipelines/scenes/plant.toml");
     let scene = scene.to_str().unwrap();
     for (keep, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
         let cut = ["--at", "0,0,0.6,0,0,-1", "--length", "0.006", "--keep", keep, "-o", file];

@@ -4,6 +4,7 @@ mod options;
 mod scenes;
 
 use grainpipe_tests::tools::{Done, succeed, with_stdin};
+use grainpipe_tests::tree::root;
 use std::fs;
 use std::path::Path;
 use stream::mcap::Reader;
@@ -117,9 +118,7 @@ fn surface() -> String {
 fn clouds() -> TempDir {
     let folder = tempdir().unwrap();
     let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
-    let sample = |name: &str| {
-        fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../sample-data").join(name)).unwrap()
-    };
+    let sample = |name: &str| fs::read(root().join("sample-data").join(name)).unwrap();
     write("good.xyz", surface().as_bytes());
     succeed(folder.path(), "cloud-crop", &["good.xyz", "-o", "good.ply"]);
     let ply = fs::read(folder.path().join("good.ply")).unwrap();

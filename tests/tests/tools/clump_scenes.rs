@@ -1,6 +1,7 @@
 //! Scenes with rigid clumps, as a user runs them.
 
 use grainpipe_tests::tools::{succeed, tool};
+use grainpipe_tests::tree::root;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path::Path;
@@ -152,7 +153,7 @@ fn clumps_from_body_file_fill_and_faucet() {
 /// A scan of 3740 faces: spheres on a tenth of its vertices, the mass and the inertia of all of it.
 #[test]
 fn a_scanned_stone_becomes_a_clump_of_few_spheres_and_keeps_its_moments() {
-    let stone = Path::new(env!("CARGO_MANIFEST_DIR")).join("../sample-data/stones/quarry.ply");
+    let stone = root().join("sample-data/stones/quarry.ply");
     let scene = |faces: &str| {
         format!(
             "[time]\nuntil = 1e-4\n[output]\nevery = 1e-4\n[[material]]\nname = \"stone\"\ndensity = 2500\nyoung = 5e7\npoisson = 0.25\n\

@@ -1,19 +1,15 @@
 //! Pages that say what the code says: tables that the code prints.
 
-use std::path::{Path, PathBuf};
+use grainpipe_tests::tree::root;
 use std::{env, fs};
 
 /// What stands before and after a table that is printed.
 const MARKS: [&str; 2] = ["<!-- printed from the effects' descriptions -->\n", "<!-- until here -->\n"];
 
-fn page(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name)
-}
-
 /// docs/scene.md has the effects and keys of contacts as the engine describes them; GRAINPIPE_WRITE_DOCS=1 writes them there.
 #[test]
 fn the_page_on_scenes_has_every_effect_and_key() {
-    let path = page("docs/scene.md");
+    let path = root().join("docs/scene.md");
     let text = fs::read_to_string(&path).expect("the page is there");
     let (before, rest) = text.split_once(MARKS[0]).expect("the first mark");
     let (table, after) = rest.split_once(MARKS[1]).expect("the second mark");

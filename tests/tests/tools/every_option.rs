@@ -77,7 +77,7 @@ fn used(tool: &str) -> Vec<(String, String)> {
 #[test]
 fn every_option_has_an_example_in_each_of_its_forms() {
     let tools: BTreeSet<&str> = EXAMPLES.iter().filter_map(|line| line.split(' ').next()).collect();
-    let all = files::tools();
+    let all = grainpipe_tests::tree::tools();
     assert_eq!(all, tools.iter().map(|tool| (*tool).to_owned()).collect(), "every tool has examples");
     let mut missing = Vec::new();
     for tool in &tools {

@@ -1,13 +1,9 @@
 //! The examples and the page for the first day: each scene runs for a short time and can be drawn, and the commands of the page run.
 
 use grainpipe_tests::tools::{line, program, succeed};
+use grainpipe_tests::tree::root;
 use std::fs;
-use std::path::{Path, PathBuf};
 use tempfile::{TempDir, tempdir};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap()
-}
 
 /// The names of the scenes in the folder of examples.
 fn scenes() -> Vec<String> {

@@ -1,6 +1,7 @@
 //! The blast furnace of the first page: its stages against the undivided plant, and the full form, whose numbers the docs name.
 
 use grainpipe_tests::tools::{Done, line, succeed};
+use grainpipe_tests::tree::root;
 use std::fs;
 use std::path::Path;
 use tempfile::{TempDir, tempdir};
@@ -9,7 +10,7 @@ use tempfile::{TempDir, tempdir};
 #[cfg(unix)]
 fn folder() -> TempDir {
     let folder = tempdir().unwrap();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap();
+    let root = root();
     let at = |name: &str| folder.path().join(name);
     fs::create_dir_all(at("pipelines/furnace")).unwrap();
     std::os::unix::fs::symlink(root.join("sample-data"), at("sample-data")).unwrap();
@@ -66,7 +67,7 @@ fn the_full_form_is_a_million_grains_as_its_page_says() {
     let folder = folder();
     let told = make(folder.path(), "furnace-explain");
     let told = String::from_utf8_lossy(&told.stdout) + &*told.stderr;
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/furnace.md");
+    let page = root().join("docs/furnace.md");
     let page = fs::read_to_string(page).unwrap();
     let behind = |text: &str, start: &str| -> String {
         let rest = text.split(start).nth(1).unwrap_or_else(|| panic!("{start}: {text}"));

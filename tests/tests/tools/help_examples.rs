@@ -1,7 +1,8 @@
 //! The Examples section of every `--help`: every line of it runs as it stands, of hulls with coarser cells.
 
-use crate::every_option::files::{inputs, lammps, tools};
+use crate::every_option::files::{inputs, lammps};
 use grainpipe_tests::tools::{line, program, succeed};
+use grainpipe_tests::tree::tools;
 use std::fs;
 use std::path::Path;
 use std::process::Command;

@@ -1,7 +1,7 @@
 //! The layout of checkpoints belongs to the version that they are written with: a state of one version is never read as another.
 //!
 //! `layouts/VERSION.txt` holds what the version writes. A change of it is a new version, so that `--resume` refuses older files by
-//! their number instead of reading them wrongly: raise `VERSION` in `crates/stream/src/state.rs`, then
+//! their number instead of reading them wrongly: raise `VERSION` in `crates/base/stream/src/state.rs`, then
 //! `GRAINPIPE_NEW_LAYOUT=1 cargo test -p grainpipe-tests --test tools layout` writes the file that goes with it.
 
 use grainpipe_tests::layout::layout;
@@ -145,6 +145,6 @@ fn the_layout_of_checkpoints_is_that_of_their_version() {
     assert!(
         all == known,
         "a checkpoint is written otherwise than version {VERSION} says (now, then: {first:?}): raise VERSION in \
-         crates/stream/src/state.rs, and run this test once with GRAINPIPE_NEW_LAYOUT=1"
+         crates/base/stream/src/state.rs, and run this test once with GRAINPIPE_NEW_LAYOUT=1"
     );
 }

@@ -1,6 +1,7 @@
 //! Whole pipes of tools: pipes and files give the same bytes, and a stage that dies takes the later ones with it.
 
 use grainpipe_tests::tools::{Done, line, program, succeed, with_stdin};
+use grainpipe_tests::tree::root;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
@@ -21,7 +22,7 @@ const FILES: [&str; 5] = ["cropped.ply", "filled.ply", "sampled.ply", "walls.mca
 
 fn folder() -> TempDir {
     let folder = tempdir().unwrap();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = root();
     for (from, to) in
         [("sample-data/chute/chute.ply", "scan.ply"), ("pipelines/scenes/chute.toml", "chute.toml")]
     {
@@ -274,7 +275,7 @@ fn a_pipeline_does_not_take_a_stopped_run_as_made() {
     let folder = tempdir().unwrap();
     let file = |name: &str| folder.path().join(name);
     fs::write(file("s.toml"), LONG.replace("100000", "0.3")).unwrap();
-    let once = Path::new(env!("CARGO_MANIFEST_DIR")).join("../pipelines/once.sh");
+    let once = root().join("pipelines/once.sh");
     let run =
         |words: &str| line(folder.path(), &format!("'{}' run.mcap dem-run s.toml {words}", once.display()));
     for _ in 0..2 {

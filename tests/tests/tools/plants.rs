@@ -1,19 +1,16 @@
 //! A plant of a user's own: the Makefile of docs/plants.md, its files, and each of its stages swapped for another program.
 
+use grainpipe_tests::tree::root;
 use grainpipe_tests::{skip, tools::program};
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 use std::time::SystemTime;
 use tempfile::{TempDir, tempdir};
 
 const FILES: [&str; 7] =
     ["cropped.ply", "filled.ply", "sampled.ply", "walls.mcap", "run.mcap", "page.html", "picture.png"];
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap()
-}
 
 /// The folder of a user: a scan, a scene, and the documented Makefile, with fewer points and a short run.
 fn plant() -> TempDir {

@@ -1,5 +1,6 @@
 //! A run in Python, by the lines of the documentation; files for ParaView, read by VTK itself.
 
+use grainpipe_tests::tree::root;
 use grainpipe_tests::{skip, tools::succeed};
 use std::{
     fs,
@@ -70,7 +71,7 @@ fn said(folder: &Path, modules: &str, script: &str) -> Option<String> {
 
 /// The Python lines of the documentation.
 fn documented() -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/python.md");
+    let path = root().join("docs/python.md");
     let text = fs::read_to_string(path).unwrap();
     let blocks = text.split("```python\n").skip(1).filter_map(|rest| rest.split("```").next());
     blocks.collect::<Vec<_>>().concat()

@@ -1,14 +1,10 @@
 //! The commands of README.md: every one runs as it stands, in a copy of the folders that it names, dem-run for a moment only.
 
 use grainpipe_tests::tools::{program, succeed};
+use grainpipe_tests::tree::{root, tools};
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::tempdir;
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 fn readme() -> String {
     fs::read_to_string(root().join("README.md")).expect("README.md is there")
@@ -63,10 +59,10 @@ fn every_option_is_in_its_tools_help() {
     let readme = readme();
     // Blocks stand between backticks as well.
     let code: Vec<&str> = readme.split('`').skip(1).step_by(2).collect();
-    let mut seen = 0;
+    let (tools, mut seen) = (tools(), 0);
     for command in code.iter().flat_map(|c| c.split(['|', '\n'])).flat_map(|c| c.split("&&")) {
         let mut words = command.split_whitespace();
-        let Some(name) = words.next().filter(|n| root().join("tools").join(n).is_dir()) else { continue };
+        let Some(name) = words.next().filter(|n| tools.contains(*n)) else { continue };
         let help = String::from_utf8_lossy(&succeed(&root(), name, &["--help"]).stdout).into_owned();
         for option in words.filter(|w| w.starts_with("--")) {
             seen += 1;

@@ -6,9 +6,10 @@
 
 use cloud::fill::Settings;
 use geom::{Grid, Vec3};
+use grainpipe_tests::tree::root;
 use record::MaterialRecord;
 use sampling::{Amount, Method, SampleSettings as Sampling};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use wall::drawn::{Drawing, place};
 use wall::{Radius, Regions, WallSettings, build};
 
@@ -26,7 +27,7 @@ struct Chain {
 }
 
 fn sample(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../sample-data").join(name)
+    root().join("sample-data").join(name)
 }
 
 fn regions(zeta: f64) -> Regions {

@@ -2,16 +2,13 @@
 
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
+use grainpipe_tests::tree::root;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use stream::mcap::{Event, Reader};
 use tempfile::TempDir;
-
-fn root(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
-}
 
 fn json(folder: &Path, name: &str) -> Value {
     serde_json::from_slice(&fs::read(folder.join(name)).unwrap()).unwrap()
@@ -24,7 +21,7 @@ fn chain() -> TempDir {
     let soil: String = ["x,y,z,radius\n".to_owned()].into_iter().chain((0..6000).map(row)).collect();
     let folder = folder(&[("soil.csv", soil)]);
     for name in ["rock-fill.toml", "grading.csv", "soil.toml"] {
-        fs::copy(root("pipelines/rock-fill").join(name), folder.path().join(name)).unwrap();
+        fs::copy(root().join("pipelines/rock-fill").join(name), folder.path().join(name)).unwrap();
     }
     folder
 }
@@ -39,7 +36,7 @@ fn pack<'a>(library: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 #[test]
 fn soil_becomes_a_specimen_of_bonded_stones_and_runs() {
     let folder = chain();
-    let (path, library) = (folder.path(), root("sample-data/stones"));
+    let (path, library) = (folder.path(), root().join("sample-data/stones"));
     let library = library.to_str().unwrap();
     let mut all = Vec::new();
     for threads in ["1", "2"] {
@@ -95,7 +92,7 @@ fn soil_becomes_a_specimen_of_bonded_stones_and_runs() {
 fn a_clump_has_the_mass_of_its_mesh() {
     let folder = folder(&[("s.toml", String::new())]);
     let path = folder.path();
-    let block = root("sample-data/stones/block.ply");
+    let block = root().join("sample-data/stones/block.ply");
     let block = block.to_str().unwrap();
     succeed(path, "stone-clump", &[block, "--spheres", "4", "--report", "r.json", "-q", "-o", "clump.toml"]);
     let volume = json(path, "r.json")["volume"].as_f64().unwrap();

@@ -3,15 +3,13 @@
 //! The full case is `make -C pipelines sinter-box`; what it found is in docs/stages.md.
 
 use grainpipe_tests::tools::{line, succeed};
+use grainpipe_tests::tree::root;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::tempdir;
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../pipelines/stages")
-        .canonicalize()
-        .expect("pipelines/stages")
+    root().join("pipelines/stages").canonicalize().expect("pipelines/stages")
 }
 
 /// Slope of the heap that leans on the far wall [deg].

@@ -1,12 +1,8 @@
 //! Pages whose numbers long commands print: whether today's programs would print the same.
 
 use grainpipe_tests::tools::line;
+use grainpipe_tests::tree::root;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 /// Scene, time and files of each stamp, as the program that writes the page has them.
 fn stamped() -> Vec<String> {

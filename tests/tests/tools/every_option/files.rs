@@ -2,7 +2,6 @@
 
 use grainpipe_tests::lab::{ROCK, SAND, cube};
 use grainpipe_tests::scenes::folder;
-use std::collections::BTreeSet;
 use tempfile::TempDir;
 
 // This file is read by two tests.
@@ -205,11 +204,4 @@ pub fn inputs() -> TempDir {
     ]);
     photographs::write(made.path());
     made
-}
-
-/// The names of all tools.
-pub fn tools() -> BTreeSet<String> {
-    let folders = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../tools")).expect("the tools");
-    let all = folders.map(|entry| entry.expect("an entry")).filter(|entry| entry.path().is_dir());
-    all.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
 }

@@ -1,6 +1,6 @@
 //! Methods of sampling, measured: `sampling_study FOLDER PAGE.md` writes the page, its plots beside it, and the plots as PNG into the folder.
 //!
-//! Every number of the page comes from here. What must hold of them is asserted by `crates/sampling/tests/laws/`.
+//! Every number of the page comes from here. What must hold of them is asserted by `crates/scan/sampling/tests/laws/`.
 
 mod clouds;
 mod measured;
