@@ -18,9 +18,9 @@ sweep() {
 # The curves that `accuracy` in [time] relies on; dem-run takes them in when it is built.
 echo "accuracy: table" >&2
 ./table.sh "$OUT" > "$OUT/impact-error.csv"
-cmp -s "$OUT/impact-error.csv" ../../crates/engine/scene/data/impact-error.csv || {
-  cp "$OUT/impact-error.csv" ../../crates/engine/scene/data/impact-error.csv
-  echo "accuracy: crates/engine/scene/data/impact-error.csv has changed: build again for dem-run to use it" >&2
+cmp -s "$OUT/impact-error.csv" ../../crates/plant/scene/data/impact-error.csv || {
+  cp "$OUT/impact-error.csv" ../../crates/plant/scene/data/impact-error.csv
+  echo "accuracy: crates/plant/scene/data/impact-error.csv has changed: build again for dem-run to use it" >&2
 }
 
 # One impact. Hooke, e = 0.5: c/2m* = ω ln(1/e)/√(π² + ln²e) = 841.9 /s at ω = 3908.8 /s, and t_c = 8.2307e-4 s.

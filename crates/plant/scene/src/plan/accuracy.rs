@@ -23,7 +23,7 @@ const CURVES: &str = include_str!("../../data/impact-error.csv");
 /// Share of the wanted error that the step is chosen for: the curves were measured at a few phases of a step only.
 const AIM: f64 = 0.9;
 /// Their file, for messages.
-const FILE: &str = "crates/engine/scene/data/impact-error.csv";
+const FILE: &str = "crates/plant/scene/data/impact-error.csv";
 
 /// A point of a curve: share of the critical step [–], error [–].
 #[derive(Debug, Clone, Copy, PartialEq)]
