@@ -58,7 +58,7 @@ fn lattice() -> String {
     text
 }
 
-/// Instructions of the engine: by file, its path below `crates/engine/dem/src/`, and of all its functions but [`SET_UP`], with what is inlined into them.
+/// Instructions of the engine: by file, its path below the sources of a crate in `crates/engine`, and of all its functions but [`SET_UP`], with what is inlined into them.
 #[derive(Debug)]
 struct Count {
     files: HashMap<String, u64>,
@@ -90,7 +90,7 @@ impl Count {
     fn read(text: &str) -> Count {
         let (mut names, mut cost) = (HashMap::new(), HashMap::new());
         let (mut file, mut home, mut called) = (String::new(), String::new(), false);
-        let (own, mut engine) = ("crates/engine/dem/src/", 0);
+        let (own, mut engine) = ("crates/engine/", 0);
         for line in text.lines() {
             if let Some((key @ ("fl" | "fi" | "fe" | "cfi" | "cfl"), value)) = line.split_once('=') {
                 let (number, name) = value.split_once(' ').unwrap_or((value, ""));
@@ -110,8 +110,9 @@ impl Count {
                 if let (false, Some(count)) = (called, count) {
                     let steps = home.contains(own) && !SET_UP.iter().any(|file| home.ends_with(file));
                     engine += if steps { count } else { 0 };
-                    if let Some((_, path)) = file.split_once(own) {
-                        *cost.entry(path.to_owned()).or_insert(0) += count;
+                    let within = |path: &str| Some(path.split_once(own)?.1.split_once("/src/")?.1.to_owned());
+                    if let Some(path) = within(&file) {
+                        *cost.entry(path).or_insert(0) += count;
                     }
                 }
                 called = false;

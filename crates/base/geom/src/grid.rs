@@ -61,7 +61,7 @@ impl Grid {
 
     fn sorted(points: &[Vec3], cell: f64, points_of_a_block: Option<usize>) -> Grid {
         assert!(points.len() < u32::MAX as usize, "more than 2^32 points in one grid");
-        let lattice = Lattice::new(bounds(points), cell, points.len(), points_of_a_block);
+        let lattice = lattice_over(bounds(points), cell, points.len(), points_of_a_block);
         let mut grid = Grid { lattice, order: Vec::new(), table: Table::Dense(Vec::new()) };
         if points.is_empty() {
             return grid;
@@ -196,35 +196,33 @@ impl Grid {
     }
 }
 
-impl Lattice {
-    /// Cells at least `cell` [m] wide over the box of so many points from its lowest to its highest corner [m], in blocks, as cubic as the box allows, that
-    /// would hold `points_of_a_block` each if they were spread evenly, or in one.
-    ///
-    /// # Panics
-    /// When `cell` is not positive, or a coordinate is not finite.
-    pub fn new(
-        (lo, hi): (Vec3, Vec3),
-        cell: f64,
-        points: usize,
-        points_of_a_block: Option<usize>,
-    ) -> Lattice {
-        assert!(cell > 0.0 && cell.is_finite(), "cell size must be positive, got {cell} m");
-        if points == 0 {
-            return Lattice { origin: Vec3::zeros(), cell, dims: [0; 3], block: [1; 3], blocks: [1; 3] };
-        }
-        let extent = hi - lo;
-        assert!(extent.iter().all(|e| e.is_finite()), "coordinates must be finite");
-        let cell = cell.max(extent.max() / CELLS_PER_AXIS);
-        let dims = [0, 1, 2].map(|a| (extent[a] / cell).floor() as i64 + 1);
-        let cells = dims.iter().map(|&d| d as f64).product::<f64>();
-        // Blocks may reach beyond the last cells: their numbers must fit as well.
-        let (mut block, mut blocks) = (dims, [1; 3]);
-        if let Some(points_of_a_block) = points_of_a_block.filter(|_| 8.0 * cells < i64::MAX as f64) {
-            block = block_of(dims, points_of_a_block as f64 * cells / points as f64);
-            blocks = [0, 1, 2].map(|a| (dims[a] as u64).div_ceil(block[a] as u64) as i64);
-        }
-        Lattice { origin: lo, cell, dims, block, blocks }
+/// Cells at least `cell` [m] wide over the box of so many points from its lowest to its highest corner [m], in blocks, as cubic as the box allows, that
+/// would hold `points_of_a_block` each if they were spread evenly, or in one.
+///
+/// # Panics
+/// When `cell` is not positive, or a coordinate is not finite.
+pub fn lattice_over(
+    (lo, hi): (Vec3, Vec3),
+    cell: f64,
+    points: usize,
+    points_of_a_block: Option<usize>,
+) -> Lattice {
+    assert!(cell > 0.0 && cell.is_finite(), "cell size must be positive, got {cell} m");
+    if points == 0 {
+        return Lattice { origin: Vec3::zeros(), cell, dims: [0; 3], block: [1; 3], blocks: [1; 3] };
     }
+    let extent = hi - lo;
+    assert!(extent.iter().all(|e| e.is_finite()), "coordinates must be finite");
+    let cell = cell.max(extent.max() / CELLS_PER_AXIS);
+    let dims = [0, 1, 2].map(|a| (extent[a] / cell).floor() as i64 + 1);
+    let cells = dims.iter().map(|&d| d as f64).product::<f64>();
+    // Blocks may reach beyond the last cells: their numbers must fit as well.
+    let (mut block, mut blocks) = (dims, [1; 3]);
+    if let Some(points_of_a_block) = points_of_a_block.filter(|_| 8.0 * cells < i64::MAX as f64) {
+        block = block_of(dims, points_of_a_block as f64 * cells / points as f64);
+        blocks = [0, 1, 2].map(|a| (dims[a] as u64).div_ceil(block[a] as u64) as i64);
+    }
+    Lattice { origin: lo, cell, dims, block, blocks }
 }
 
 /// Cells along each axis of blocks of about so many cells: as cubic as the box allows, and so that blocks fill it.

@@ -12,10 +12,9 @@
 
 mod bound;
 mod path;
-mod pose;
 
 pub use path::{Path, PathError, PathRow};
-pub use pose::{Pose, SurfaceMotion};
+pub use primitives::{Pose, SurfaceMotion};
 
 use crate::Vec3;
 use serde::{Deserialize, Serialize};

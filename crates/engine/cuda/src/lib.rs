@@ -1,6 +1,6 @@
 //! A GPU by the CUDA driver, which is loaded when it is asked for: nothing of CUDA is needed to build.
 //!
-//! `kernels.ptx` holds what it runs: the engine's own functions ([`dem::thread`]), compiled for GPUs by `make -C crates/engine/cuda/kernels`. Its
+//! `kernels.ptx` holds what it runs: the engine's own functions ([`gpu::threads`]), compiled for GPUs by `make -C crates/engine/cuda/kernels`. Its
 //! arithmetic rounds as IEEE 754 says, and no multiply-add is fused, so its bits are those of a processor.
 #![expect(unsafe_code, reason = "the driver is a C library")]
 
@@ -9,7 +9,7 @@ mod staged;
 use cudarc::driver::result::{self, DriverError};
 use cudarc::driver::sys::{self, CUcontext, CUdevice, CUfunction, CUmodule};
 use dem::device::{Device, DeviceError, functions};
-use dem::device_tables::{Address, DeviceTables};
+use gpu::tables::{Address, DeviceTables};
 use staged::Staged;
 use std::ffi::{CString, c_void};
 use std::ptr::null_mut;

@@ -9,40 +9,32 @@ use std::path::{Path, PathBuf};
 /// What the head of the program says before the hash of its sources.
 const HEAD: &str = "// SHA-256 of the sources: ";
 
-/// Files of the engine that no GPU runs anything of.
+/// Files that no GPU runs anything of.
 const NOT_THERE: [&str; 8] =
-    ["told", "table", "contact_history", "registry", "compose", "aligned", "x86", "x86_single"];
+    ["told", "table", "contact_history", "registry", "shown", "aligned", "x86", "x86_single"];
 
 /// The sources that the program is made of, in order.
 fn sources() -> Vec<PathBuf> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let engine = here.join("../dem/src");
-    let mut files = vec![
-        here.join("kernels/Cargo.toml"),
-        here.join("kernels/Makefile"),
-        here.join("kernels/src/lib.rs"),
-        engine.join("float.rs"),
-        engine.join("space/cell.rs"),
-        engine.join("space/images.rs"),
-        engine.join("space/margins.rs"),
-        engine.join("space/sphere.rs"),
-        here.join("../../base/geom/src/lattice.rs"),
-        here.join("../../base/geom/src/motion/pose.rs"),
-    ];
-    for folder in ["effects", "kernel", "kernel/lists", "simd"] {
-        for entry in fs::read_dir(engine.join(folder)).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                continue;
-            }
-            let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            if !NOT_THERE.contains(&stem.as_str()) {
-                files.push(path);
-            }
-        }
+    let mut files = Vec::new();
+    for folder in ["kernels/src", "../gpu/src", "../laws/src", "../../base/primitives/src"] {
+        below(&here.join(folder), &mut files);
     }
     files.sort();
-    files
+    ["kernels/Cargo.toml", "kernels/Makefile"].map(|name| here.join(name)).into_iter().chain(files).collect()
+}
+
+/// The sources in a folder and below that a GPU runs something of.
+fn below(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        if path.is_dir() {
+            below(&path, files);
+        } else if !NOT_THERE.contains(&stem.as_str()) {
+            files.push(path);
+        }
+    }
 }
 
 /// A hash of their code: comments, blank lines and tests do not count.

@@ -4,9 +4,9 @@
 #![feature(abi_ptx, stdarch_nvptx)]
 
 use core::arch::nvptx::{_block_dim_x, _block_idx_x, _thread_idx_x};
-use dem::device_tables::DeviceTables;
-use dem::lists;
-use dem::thread::{contact, particle};
+use gpu::tables::DeviceTables;
+use gpu::lists;
+use gpu::threads::{contact, particle};
 
 /// Number of this thread.
 #[inline(always)]
@@ -34,7 +34,7 @@ macro_rules! entries {
     };
     (@ $number:expr;) => {};
 }
-dem::ported!(entries);
+gpu::ported!(entries);
 
 /// Sums and moves, without rotation.
 ///
@@ -69,4 +69,4 @@ macro_rules! list_entries {
         }
     )* };
 }
-dem::lists!(list_entries);
+gpu::lists!(list_entries);

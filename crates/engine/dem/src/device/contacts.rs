@@ -4,13 +4,13 @@ use crate::device::kinds::Fixed;
 use crate::device::tables::Table;
 use crate::device::work::{RunningSums, Work};
 use crate::device::{Device, DeviceError};
-use crate::kernel::device_tables::{Address, IMAGES, PARTICLES};
-use crate::kernel::lists::tables::DeviceSegment;
-use crate::kernel::lists::{COUNT, WRITE};
 use crate::model::{Model, With};
 use crate::neighbours::{Segment, Slots};
-use crate::simd::{BLOCK, Row, TORQUE};
-use crate::space::cell::ImageOf;
+use gpu::lists::tables::DeviceSegment;
+use gpu::lists::{COUNT, WRITE};
+use gpu::tables::{Address, IMAGES, PARTICLES};
+use laws::simd::{BLOCK, Row, TORQUE};
+use laws::space::cell::ImageOf;
 use std::mem::swap;
 
 /// Columns of contacts.
@@ -138,7 +138,7 @@ impl Contacts {
         work.launch("sort_contacts_of", count, 0)
     }
 
-    /// The lists that the device has; images are those of [`crate::space::cell::Cell::half_of_images`].
+    /// The lists that the device has; images are those of [`laws::space::cell::Cell::half_of_images`].
     pub fn fetch(&self, device: &mut dyn Device, images: &[ImageOf]) -> Result<Slots, DeviceError> {
         let (slots, with_images) = (self.slots.end(), self.slots.with_images());
         let (mut i, mut partner, mut numbers) =

@@ -3,12 +3,10 @@
 use crate::device::DeviceError;
 use crate::device::tables::Table;
 use crate::device::work::Work;
-use crate::kernel::device_tables::{
-    Address, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PARTICLES, PLANE, SPHERES,
-};
-use crate::kernel::ported::NAMES;
 use crate::model::{Model, With};
-use crate::simd::Row4;
+use gpu::compositions::NAMES;
+use gpu::tables::{Address, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PARTICLES, PLANE, SPHERES};
+use laws::simd::Row4;
 
 /// Classes of pairs of particles: the second is of the same tile or of a later one, and they touch or do not.
 const PAIR_CLASSES: u32 = 4;

@@ -1,4 +1,4 @@
-//! Lists made by a device: what it is sent, and in which order its functions ([`crate::kernel::lists`]) run.
+//! Lists made by a device: what it is sent, and in which order its functions ([`gpu::lists`]) run.
 
 use crate::device::DeviceError;
 use crate::device::contacts::Contacts;
@@ -6,16 +6,16 @@ use crate::device::kinds::Fixed;
 use crate::device::sorter::Sorter;
 use crate::device::tables::Table;
 use crate::device::work::Work;
-use crate::kernel::device_tables::Address;
-use crate::kernel::lists::tables::DeviceWall;
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::poses::{around, pose_listed, shift_into_box};
 use crate::neighbours::rebuild::{margins, wall_margin};
-use crate::simd::Row4;
-use crate::space::images::Periods;
 use crate::space::search::tile;
 use crate::state::State;
+use gpu::lists::tables::DeviceWall;
+use gpu::tables::Address;
+use laws::simd::Row4;
+use laws::space::images::Periods;
 
 /// Everything that lists are made with, and what they are.
 #[derive(Default)]

@@ -2,10 +2,10 @@
 #![expect(unsafe_code, reason = "it calls what a device runs, with tables that lie in its own memory")]
 
 use crate::device::{Device, DeviceError};
-use crate::kernel::device_tables::{Address, DeviceTables};
-use crate::kernel::lists;
-use crate::kernel::ported::NAMES;
-use crate::kernel::thread::{contact, particle};
+use gpu::compositions::NAMES;
+use gpu::lists;
+use gpu::tables::{Address, DeviceTables};
+use gpu::threads::{contact, particle};
 use std::collections::BTreeMap;
 
 /// A device in the memory of this process.
@@ -51,7 +51,7 @@ macro_rules! functions {
         }
     };
 }
-crate::ported!(functions);
+gpu::ported!(functions);
 
 macro_rules! list_functions {
     ($($name:ident)*) => {
@@ -71,7 +71,7 @@ macro_rules! list_functions {
         }
     };
 }
-crate::lists!(list_functions);
+gpu::lists!(list_functions);
 
 impl Device for Local {
     fn name(&self) -> String {

@@ -4,7 +4,7 @@
 //! send → lists there → steps there, until a particle leaves its margin → lists there → … → fetch, when something is due here
 //! ```
 //!
-//! The device runs the engine's own functions ([`crate::kernel::thread`]), so its bits are those of a processor; its lists ([`crate::kernel::lists`])
+//! The device runs the engine's own functions ([`gpu::threads`]), so its bits are those of a processor; its lists ([`gpu::lists`])
 //! are those that a processor makes, slot by slot. What it cannot compute is refused
 //! before anything starts ([`refused`]). Observing, and the step after it, are done here.
 
@@ -24,9 +24,9 @@ pub use local::Local;
 pub use stepper::DeviceTimes;
 pub(crate) use stepper::Stepper;
 
-use crate::kernel::device_tables::{Address, DeviceTables};
-use crate::kernel::lists::LIST_FUNCTIONS;
-use crate::kernel::ported::NAMES;
+use gpu::compositions::NAMES;
+use gpu::lists::LIST_FUNCTIONS;
+use gpu::tables::{Address, DeviceTables};
 
 /// Functions that a device must have, by number: the compositions, the moves without and with rotation, and what makes lists.
 pub fn functions() -> Vec<&'static str> {

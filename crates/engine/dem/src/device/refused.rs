@@ -1,10 +1,10 @@
 //! What a device does not compute: refused by name before anything starts.
 
-use crate::effects::{ContactLaw, active};
 use crate::model::Model;
 use crate::setup::WallShape;
-use crate::simd::Precision;
 use crate::state::State;
+use laws::effects::{ContactLaw, active};
+use laws::simd::Precision;
 
 /// What a scene asks for that a device does not compute; empty: nothing.
 pub fn refused(model: &Model, state: &State) -> Vec<String> {

@@ -3,12 +3,13 @@
 use crate::device::DeviceError;
 use crate::device::tables::Table;
 use crate::device::work::{RunningSums, Work};
-use crate::kernel::device_tables::Address;
-use crate::kernel::lists::tables::{CHUNK, DIGIT, DIGITS, INTERVALS, LeastRow, PART};
-use crate::simd::{Row, Row4};
-use crate::space::images::Periods;
 use crate::space::search::{cell_width, common_place, shortest_first};
-use geom::{Lattice, Vec3};
+use geom::Vec3;
+use geom::grid::lattice_over;
+use gpu::lists::tables::{CHUNK, DIGIT, DIGITS, INTERVALS, LeastRow, PART};
+use gpu::tables::Address;
+use laws::simd::{Row, Row4};
+use laws::space::images::Periods;
 use std::mem::swap;
 
 /// Columns of particles.
@@ -57,7 +58,7 @@ impl Sorter {
         let common = self.common_reach(work, &least)?;
         let [low, high] = bounds;
         work.t.lists.lattice =
-            Lattice::new((low, high), cell_width(common), count, Some(work.t.tile as usize));
+            lattice_over((low, high), cell_width(common), count, Some(work.t.tile as usize));
         let [keys, next_keys] = &mut self.keys;
         work.t.lists.keys = keys.room::<u64>(work.device, count)?;
         work.t.lists.next_keys = next_keys.room::<u64>(work.device, count)?;

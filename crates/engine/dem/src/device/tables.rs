@@ -2,14 +2,14 @@
 #![expect(unsafe_code, reason = "rows are copied as bytes")]
 
 use crate::device::{Device, DeviceError};
-use crate::kernel::SlotEnd;
-use crate::kernel::device_tables::{Address, DeviceBlock, DeviceFlags, DeviceKind};
-use crate::kernel::lists::tables::{DeviceSegment, DeviceWall, LeastRow};
-use crate::kernel::wall_point::WallPose;
-use crate::simd::{Row, Row4};
-use crate::space::images::WallImages;
 use geom::motion::Pose;
 use geom::{Lattice, Vec3};
+use gpu::lists::tables::{DeviceSegment, DeviceWall, LeastRow};
+use gpu::tables::{Address, DeviceBlock, DeviceFlags, DeviceKind};
+use laws::contact::SlotEnd;
+use laws::contact::wall_point::WallPose;
+use laws::simd::{Row, Row4};
+use laws::space::images::WallImages;
 
 /// Rows that may be copied as bytes: they have no gaps, and every pattern of bits is one.
 ///

@@ -3,12 +3,12 @@
 mod damaged;
 
 use super::*;
-use crate::effects::{ContactLaw, Material};
 use crate::model::With;
 use crate::neighbours::rebuild::restore_lists;
 use crate::setup::*;
 use crate::{Halt, Setup, Simulation};
 use geom::{Plane, Vec3};
+use laws::effects::{ContactLaw, Material};
 
 /// Which effects grains have.
 #[derive(Debug, Clone, Copy)]

@@ -2,8 +2,8 @@
 
 use crate::device::tables::Table;
 use crate::device::{Device, DeviceError, functions};
-use crate::kernel::device_tables::{Address, DeviceTables};
-use crate::kernel::lists::tables::SUMMED;
+use gpu::lists::tables::SUMMED;
+use gpu::tables::{Address, DeviceTables};
 
 /// A device, and the tables of its threads.
 pub struct Work<'a> {

@@ -10,18 +10,18 @@
 //! impact (a plate that falls flat). Forces of each pair of bodies count by themselves: at rest the sum over all pairs is zero. Bodies are clumps, single
 //! particles and walls.
 
-use crate::kernel::damped_mass::DampedMass;
-use crate::kernel::patch::PATCH;
-use crate::kernel::touch::Touch;
 use crate::model::{Model, With};
 use crate::neighbours::{NeighbourLists, Segment};
-use crate::simd::BLOCK;
 use crate::space::rotation;
 use crate::state::State;
 use crate::state::clump::quaternion;
 use crate::state::clumps::FREE;
 use crate::threads::{FEW, share};
 use geom::Vec3;
+use laws::contact::damped_mass::DampedMass;
+use laws::contact::patch::PATCH;
+use laws::contact::touch::Touch;
+use laws::simd::BLOCK;
 
 /// A contact of a clump that touches.
 struct Entry {

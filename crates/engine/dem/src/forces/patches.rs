@@ -1,12 +1,12 @@
 //! Patches of wall spheres that grains touch at once: what part each contact has in its own, found before forces are computed.
 
 use crate::forces::tile::TileInputs;
-use crate::kernel::patch::{ALONE, Belonging, Bodies, Instants, PATCH, Patch};
-use crate::kernel::touch::{PatchLaw, Touch};
 use crate::model::With;
 use crate::neighbours::{Segment, TileSlice};
-use crate::simd::{BLOCK, Row};
 use geom::Vec3;
+use laws::contact::patch::{ALONE, Belonging, Bodies, Instants, PATCH, Patch};
+use laws::contact::touch::{PatchLaw, Touch};
+use laws::simd::{BLOCK, Row};
 use std::cell::RefCell;
 
 /// Memory that each thread keeps from one segment to the next.

@@ -4,11 +4,11 @@
 //! the order of a sum depends on the lists and on which particles sleep, and on nothing else.
 
 use crate::forces::tile::TileInputs;
-use crate::kernel::Sums;
 use crate::neighbours::{RestingTile, Segment, SlotRun, TileSlice};
 use crate::passes::sleep::runs;
-use crate::simd::BLOCK;
 use crate::state::SleepMap;
+use laws::contact::Sums;
+use laws::simd::BLOCK;
 
 impl RestingTile {
     /// Forces of the contacts of a tile, and their sums; true when an overlap passes the limit.
@@ -81,7 +81,7 @@ impl RestingTile {
             }
         }
         self.sums.set(any_rests.then(|| sums.wrenches.as_ref()));
-        let sleeps = &asleep[sums.first..sums.first + sums.len()];
+        let sleeps = &asleep[sums.first..sums.first + sums.particles()];
         self.awake = runs(sleeps).filter(|run| !sleeps[run.start]).collect();
         let disturbed = |k: &u32| sleeps[*k as usize] && lists.disturbed(sums.first + *k as usize, asleep);
         self.disturbed = (0..sleeps.len() as u32).filter(disturbed).collect();

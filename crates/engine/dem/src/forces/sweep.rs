@@ -7,17 +7,17 @@
 
 use crate::forces::clump_patches;
 use crate::forces::tile::TileInputs;
-use crate::kernel::{MoveFlags, StepInputs, Sums, WrenchSlices};
 use crate::model::Model;
 use crate::neighbours::poses::pose_in_box;
 use crate::neighbours::{Computed, NeighbourLists, RestingTile, Slots, TileSlice};
 use crate::passes::integrate::ParticleSlices;
 use crate::passes::sleep::advance_awake;
 use crate::passes::stirred::{Movers, Stirred};
-use crate::simd::Layout;
 use crate::state::{Bonds, Forces, Particles, Sleepers, State};
 use crate::threads::{FEW, share};
 use geom::motion::Pose;
+use laws::contact::{MoveFlags, StepInputs, Sums, WrenchSlices};
+use laws::simd::Layout;
 use std::ops::Range;
 
 /// What a pass found.
@@ -225,7 +225,7 @@ fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourList
     for (tile, segments) in shared.tiles.windows(2).enumerate() {
         let mut own = sums.split_off(shared.tile);
         found.deep.extend(forces(segments[0]..segments[1], particles, &mut slice, &mut own));
-        let range = own.first..own.first + own.len();
+        let range = own.first..own.first + own.particles();
         let particles = ParticleSlices::of(particles, range, own);
         found.moved = found.moved.and(second.tile(tile, particles, slice.kept.as_ref(), None));
     }

@@ -1,16 +1,16 @@
 //! Tiles of the lists, with what is computed for them: what a thread works on.
 
-use crate::kernel::patch::PATCH;
-use crate::kernel::wrenches::{rows, rows_mut};
-use crate::kernel::{Batch, LEDGER, Pairs, StepInputs, Sums};
 use crate::model::{Model, With};
 use crate::neighbours::{Segment, Slots, TileSlice};
-use crate::simd::BLOCK;
-use crate::space::cell::Cell;
 use crate::state::SleepMap;
 use crate::walls::seams::HistorySlots;
 use geom::Vec3;
 use geom::motion::Pose;
+use laws::contact::patch::PATCH;
+use laws::contact::wrenches::{rows, rows_mut};
+use laws::contact::{Batch, LEDGER, Pairs, StepInputs, Sums};
+use laws::simd::BLOCK;
+use laws::space::cell::Cell;
 use std::ops::Range;
 
 /// What all tiles read.

@@ -1,12 +1,12 @@
 //! Laws of contact that are refused before a run starts.
 
-use crate::effects::{Contradiction, Description, Elastic, Key as NumberKey, Slot, active, by_modulus};
 use crate::model::in_range::out_of_range;
 use crate::model::limit::{normal, radii_by_material};
 use crate::model::quantity::material_names;
 use crate::model::{Allowed, Check, SetupError, Subject};
 use crate::setup::{ContactLaw, Setup};
-use crate::simd::Precision;
+use laws::effects::{Contradiction, Description, Elastic, Key as NumberKey, Slot, active, by_modulus};
+use laws::simd::Precision;
 
 /// Radius below which the square of a torque is too small for single precision [m].
 const SMALLEST_NARROW: f64 = 1e-5;

@@ -8,13 +8,13 @@
 //! packing has 4. A grain pressed by the whole of δ into such a wall would touch more of them, up to (r + R)/R* times as many, the outermost lightly: N is that of an
 //! overlap of δ R*/(r + R), a quarter of the limit for equal radii.
 //!
-//! Where the spheres of a wall act as one contact ([`crate::kernel::patch`]), N that are pressed alike are N^¼ times as stiff as one; under a law that yields they do not.
+//! Where the spheres of a wall act as one contact ([`laws::contact::patch`]), N that are pressed alike are N^¼ times as stiff as one; under a law that yields they do not.
 
-use crate::effects::{ALONG, ContactLaw};
 use crate::model::limit::normal;
 use crate::setup::{Setup, Wall, WallShape};
 use crate::threads::share;
 use geom::{Grid, Vec3};
+use laws::effects::{ALONG, ContactLaw};
 
 /// Centres that one thread counts the neighbours of.
 const TOGETHER: usize = 4096;

@@ -2,7 +2,7 @@
 
 use crate::model::{OutOfRange, Quantity, StepCause};
 use crate::setup::{Clusters, Precision};
-use crate::simd::Width;
+use laws::simd::Width;
 use thiserror::Error;
 
 /// Why a setup cannot run.

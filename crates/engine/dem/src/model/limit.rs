@@ -11,7 +11,7 @@
 //! ```
 //!
 //! For rigid clumps 1/m* is that of their yielding in a_n and a_t, and b_n = γ √(S m*)/m*, b_t = γ √(k_t m*)/m* have m* of the whole
-//! clumps under the root. Effects that the scene does not ask for count 0. The integrator of [`crate::kernel::motion`] turns unstable by an eigenvalue of −1:
+//! clumps under the root. Effects that the scene does not ask for count 0. The integrator of [`laws::contact::motion`] turns unstable by an eigenvalue of −1:
 //! A Δt²/4 + B Δt = 1, the dashpot seeing the predicted velocity. 4 and 8: twelve contacts, Σ n nᵀ = 4 and Σ (1 − n nᵀ) = 8,
 //! each against a neighbour that moves the other way; 16: a tangential spring that is late by half a step, the most there is, counts
 //! twice. c: as many times twelve small ones touch a large one (3 (1 + q)² together), which may be the lighter; the largest eigenvalue of the whole is
@@ -19,13 +19,9 @@
 //! tangential spring, whose rate is predicted as well, takes more energy than it makes without a dashpot. Sliding resists
 //! ω_i + ω_j, rolling and twisting ω_i − ω_j: they add up for a grain beside a wall (w = 1), and only the greater counts between
 //! equals (w = 0). Cohesion only softens a contact, and the constant torque of rolling limits
-//! itself ([`crate::effects::ConstantRolling`]). On a wall of spheres that lie deep within each other N push one way at once, Σ n nᵀ = N
+//! itself ([`laws::effects::ConstantRolling`]). On a wall of spheres that lie deep within each other N push one way at once, Σ n nᵀ = N
 //! ([`crate::model::dense_walls`]): where N > 4, all numbers of contacts count N/4 times.
 
-use crate::effects::{
-    ALONG, Elastic, Material, NormalLaw, OverlapLimit, Slot, TurningPair, active, damping_ratios,
-    tangential_ratio,
-};
 use crate::model::dense_walls::{met, rounding};
 use crate::model::in_range::indices;
 use crate::model::step_cause::root;
@@ -35,8 +31,13 @@ use crate::model::{
 };
 use crate::setup::clumps::{SizeClass, widen};
 use crate::setup::{ContactLaw, Drag, Setup, Step, Wall, WallShape};
-use crate::space::sphere::{TURNS, mass};
+use crate::space::mass;
 use geom::Vec3;
+use laws::effects::{
+    ALONG, Elastic, Material, NormalLaw, OverlapLimit, Slot, TurningPair, active, damping_ratios,
+    tangential_ratio,
+};
+use laws::space::sphere::TURNS;
 use std::f64::consts::PI;
 
 /// Σ (1 − n nᵀ) of the twelve contacts of a close packing [–].

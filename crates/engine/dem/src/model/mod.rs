@@ -6,6 +6,7 @@
 pub mod bonds;
 pub mod check;
 pub mod clumps;
+mod compose;
 pub mod contact_check;
 pub mod dense_walls;
 pub mod entrance;
@@ -34,17 +35,17 @@ pub use step_cause::{
     RepeatedMotion, StepCause,
 };
 
-use crate::effects::needed;
-use crate::kernel::touch::PatchLaw;
-use crate::kernel::{Kernel, MoveInputs};
 use crate::model::limit::{critical_of_contacts, largest_reach};
 use crate::model::servo::{Response, responses};
 use crate::model::start::{faster_than_sleep, kinds, mean_radius, slow_enough, time_step};
 use crate::setup::Setup;
-use crate::simd::{Layout, Precision, Width};
-use crate::space::cell::Cell;
 use crate::space::search::FIRST_SKIN;
 use crate::walls::{self, WallBody};
+use laws::contact::touch::PatchLaw;
+use laws::contact::{Composition, MoveInputs};
+use laws::effects::needed;
+use laws::simd::{Layout, Precision, Width};
+use laws::space::cell::Cell;
 
 /// Steps that margins are made for; chosen on the bench pile.
 const HORIZON: f64 = 100.0;
@@ -98,7 +99,7 @@ impl With {
 /// Contacts that share a law.
 pub struct Kind {
     /// The law.
-    pub kernel: Box<dyn Kernel>,
+    pub kernel: Box<dyn Composition>,
     /// Materials, lower first; of the particle, then of the wall.
     pub between: (u16, u16),
     /// What they meet.

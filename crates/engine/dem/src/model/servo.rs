@@ -1,11 +1,11 @@
 //! What is fixed of servos: how stiffly each contact answers a wall, and the walls that bound an area.
 
-use crate::effects::{Elastic, OverlapLimit, damping_ratios};
 use crate::model::dense_walls::met;
 use crate::model::limit::{contact_between, grains, stiffest};
 use crate::model::{Check, Kind, SetupError, With};
 use crate::setup::clumps::SizeClass;
 use crate::setup::{Length, Setup, Wall, WallShape};
+use laws::effects::{Elastic, OverlapLimit, damping_ratios};
 
 /// Levels of overlap, each half of the one before.
 const LEVELS: usize = 13;

@@ -1,13 +1,13 @@
 //! What a simulation begins with: its step, its kinds of contact.
 
-use crate::effects::{ContactLaw, Damping, Elastic, Pair};
-use crate::kernel::compose::compose;
-use crate::kernel::touch::PatchLaw;
+use crate::model::compose::compose;
 use crate::model::limit::{contact_between, critical_step, grains, largest, normal, radii_by_material};
 use crate::model::matched;
 use crate::model::{DenseWalls, Kind, RepeatedMotion, SetupError, With};
 use crate::setup::{Setup, Step, WallShape};
 use crate::walls::WallBody;
+use laws::contact::touch::PatchLaw;
+use laws::effects::{ContactLaw, Damping, Elastic, Pair};
 
 /// By how much a step that is read from a message may be rounded [–].
 const ROUNDING: f64 = 1e-4;

@@ -2,10 +2,10 @@
 
 use crate::model::{Kind, Model, With};
 use crate::neighbours::{LISTED_FEW, NeighbourLists, Segment, Slots};
-use crate::space::images::{Image, Periods, WallImages};
 use crate::state::{ContactColumns, State};
 use crate::threads::share;
 use crate::walls::WallBody;
+use laws::space::images::{Image, Periods, WallImages};
 
 /// Lists and columns of contacts as they were before.
 pub struct OldContacts {

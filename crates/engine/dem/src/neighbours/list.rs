@@ -1,14 +1,14 @@
 //! How lists become contacts: segments, what arrives at which tile, and which tiles are adjacent.
 
-use crate::kernel::patch::PATCH;
-use crate::kernel::{Arrival, SlotEnd};
 use crate::model::{Kind, With};
 use crate::neighbours::{Disturber, LISTED_FEW, RestingTile, Segment, Slots};
-use crate::simd::{BLOCK, Layout};
-use crate::space::cell::ImageOf;
 use crate::space::search::tile;
 use crate::threads::share;
 use crate::walls::WallBody;
+use laws::contact::patch::PATCH;
+use laws::contact::{Arrival, SlotEnd};
+use laws::simd::{BLOCK, Layout};
+use laws::space::cell::ImageOf;
 
 /// Contacts of one kind to be listed, by first particle.
 #[derive(Debug, Clone, Default)]

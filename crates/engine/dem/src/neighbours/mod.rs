@@ -16,9 +16,9 @@ pub use rebuild::LISTED_FEW;
 pub use slices::{Computed, RestingTile, SlotRun, StepColumns, TileSlice};
 pub use slots::{Disturber, Segment, Slots};
 
-use crate::simd::{Row, Row4};
-use crate::space::images::Periods;
 use crate::state::SpareColumns;
+use laws::simd::{Row, Row4};
+use laws::space::images::Periods;
 
 /// Neighbour lists.
 #[derive(Default)]

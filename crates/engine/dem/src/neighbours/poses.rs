@@ -2,11 +2,11 @@
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
-use crate::space::images::{Periods, WallImages};
 use crate::state::State;
 use crate::walls::WallBody;
 use geom::Vec3;
 use geom::motion::Pose;
+use laws::space::images::{Periods, WallImages};
 
 /// Where a wall is at `time` [s], which is now.
 pub fn pose(model: &Model, state: &State, wall: usize, time: f64) -> Pose {

@@ -5,14 +5,14 @@ use crate::neighbours::history::carry_over;
 use crate::neighbours::poses::{around, periods_travelled, pose_listed, shift_into_box, wall_shift};
 use crate::neighbours::{List, NeighbourLists, OldContacts, Slots, StepColumns};
 use crate::setup::Zone;
-use crate::simd::{Aligned, Row4};
-use crate::space::images::Periods;
-use crate::space::margins::{MarginInputs, margin, touched};
 use crate::space::search::{ImagePair, Pair, Search, next_skin, pairs, tile};
 use crate::state::ledger::wrap_in_ledger;
 use crate::state::{ContactColumns, ListStatus, State, WrenchColumns};
 use crate::threads::{change, each, share};
 use geom::Vec3;
+use laws::simd::{Aligned, Row4};
+use laws::space::images::Periods;
+use laws::space::margins::{MarginInputs, margin, touched};
 use std::ops::Range;
 
 /// Particles below which one thread lists faster than several: handing over takes some ten microseconds.
@@ -46,18 +46,7 @@ pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
         slots.index();
     }
     let (search, order) = space_order(model, state);
-    let mut new = vec![u32::MAX; state.particles.len()];
-    (0..).zip(&order).for_each(|(now, &was)| new[was as usize] = now);
-    state.particles.select(&order, &mut lists.spare);
-    state.zones.reorder(&order, &new);
-    state.clumps.reorder(&order, &new);
-    state.bonds.reorder(&order, &new, &state.particles.id);
-    if let Some(sleepers) = &mut state.sleepers {
-        sleepers.select(&order);
-    }
-    state.starting.iter_mut().for_each(|k| *k = new[*k as usize]);
-    state.starting.retain(|&k| k != u32::MAX);
-    state.starting.sort_unstable();
+    state.reorder(&order, &mut lists.spare);
     state.listing.step = state.steps;
     if let Some(cell) = &mut state.strained {
         cell.list(margin(state.listing.skin, model.horizon * model.dt * cell.fastest(), model.mean_radius));

@@ -1,13 +1,13 @@
 //! What is computed of listed contacts in a step, and slices of it by tile.
 
-use crate::kernel::wrenches::split_off;
-use crate::kernel::{LEDGER, Sums, WrenchSlicesMut};
 use crate::model::With;
 use crate::neighbours::{NeighbourLists, Segment, Slots};
-use crate::simd::{BLOCK, Layout, Row, Row4};
-use crate::space::sphere::FAR;
 use crate::state::{ContactColumns, Particles, WrenchColumns};
 use geom::Vec3;
+use laws::contact::wrenches::split_off;
+use laws::contact::{LEDGER, Sums, WrenchSlicesMut};
+use laws::simd::{BLOCK, Layout, Row, Row4};
+use laws::space::sphere::FAR;
 use std::ops::Range;
 
 /// Columns of the listed contacts that are computed in each step, and no others are saved.
@@ -16,7 +16,7 @@ pub struct StepColumns {
     /// Contact points of images and walls, as rows and spins of partners.
     pub rows: Vec<Row>,
     pub spins: Vec<Row4>,
-    /// Patches that contacts belong to, [`crate::kernel::patch::PATCH`] numbers each by block and column.
+    /// Patches that contacts belong to, [`laws::contact::patch::PATCH`] numbers each by block and column.
     pub patch: Vec<f64>,
     /// Whether contact points and patches are those of this instant.
     pub pointed: bool,

@@ -5,12 +5,12 @@
 //! segment: whole blocks of slots, one batch of the contact loop. Images across periodic faces come first, before all tiles. History and
 //! wrenches lie in columns of State ([`crate::state::contacts`]), one row per slot.
 
-use crate::kernel::patch::PATCH;
-use crate::kernel::{Arrival, SlotEnd};
 use crate::model::With;
-use crate::simd::BLOCK;
-use crate::space::cell::ImageOf;
 use crate::state::ContactColumns;
+use laws::contact::patch::PATCH;
+use laws::contact::{Arrival, SlotEnd};
+use laws::simd::BLOCK;
+use laws::space::cell::ImageOf;
 use std::ops::Range;
 
 /// What may disturb a sleeper.

@@ -6,7 +6,7 @@ use crate::observe::snapshot::energy;
 use crate::observe::stiffen::{DeepContact, stiffer};
 use crate::passes::ledger::swing;
 use crate::passes::touching::position_before;
-use crate::space::sphere::mass;
+use crate::space::mass;
 use crate::state::{CellState, ServoState, State};
 use std::ops::Range;
 

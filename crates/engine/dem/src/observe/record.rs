@@ -2,9 +2,9 @@
 
 use crate::model::{Model, With};
 use crate::neighbours::{NeighbourLists, Segment};
-use crate::space::sphere::FAR;
 use crate::state::State;
 use geom::Vec3;
+use laws::space::sphere::FAR;
 
 /// One contact.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,16 +1,16 @@
 //! Snapshots: particles, clumps and energy of this instant.
 
-use crate::kernel::WrenchSums;
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::instant::{Instant, instant};
 use crate::passes::ledger::close_step;
 use crate::passes::mount;
 use crate::setup::{Particle, Setup};
-use crate::space::cell::Cell;
 use crate::state::ledger::{carried, heavy};
 use crate::state::{Energy, State};
 use geom::Vec3;
+use laws::contact::WrenchSums;
+use laws::space::cell::Cell;
 use std::collections::BTreeSet;
 
 /// All particles at one instant, by id.

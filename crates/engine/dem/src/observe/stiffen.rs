@@ -5,11 +5,11 @@
 //! K'/K = (½ m* v² + U)/U · (δ/δ')^(p+1)                                     brought to rest at δ', without damping
 //! ```
 
-use crate::effects::{ContactLaw, Elastic, MODULI, Material, OverlapLimit, damping_ratios};
 use crate::model::dense_walls::met;
 use crate::model::limit::{contact_between, stiffest};
 use crate::model::{Model, Stiffer};
 use crate::setup::{Setup, Wall};
+use laws::effects::{ContactLaw, Elastic, MODULI, Material, OverlapLimit, damping_ratios};
 
 /// Share of the guard that the approach is to stay within [–].
 const WITHIN: f64 = 0.8;

@@ -19,12 +19,12 @@
 use crate::model::bonds::springs::numbers;
 use crate::model::{Halt, Model, With};
 use crate::neighbours::NeighbourLists;
-use crate::space::cell::Cell;
 use crate::state::clumps::FREE;
 use crate::state::particles::kick_row;
 use crate::state::{CellState, ClumpMotion, Held, ListStatus, RigidClumps, State};
 use crate::threads::{FEW, share};
 use geom::Vec3;
+use laws::space::cell::Cell;
 use nalgebra::Matrix3;
 
 /// Steps between two sums of the stiffness.
@@ -261,7 +261,7 @@ fn follow(model: &Model, state: &mut State, before: &Cell, now: &Cell) {
 }
 
 /// Whether a particle has left its margin, or will before contacts are looked for.
-fn has_left(row: &crate::simd::Row, home: &crate::simd::Row4, ahead: f64) -> bool {
+fn has_left(row: &laws::simd::Row, home: &laws::simd::Row4, ahead: f64) -> bool {
     let margin = (home[3] - ahead * row.velocity().norm()).max(0.0);
     (row.position() - home.vector()).norm_squared() > margin * margin
 }

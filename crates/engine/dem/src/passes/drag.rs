@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Stokes (1851), Trans. Camb. Phil. Soc. 9; Schiller & Naumann (1933), Z. Ver. Dtsch. Ing. 77; w is the predicted velocity of the
-//! instant, as for contacts. The last line is what an acceleration a adds to the move of [`crate::kernel::motion`]: a pass behind it, so
+//! instant, as for contacts. The last line is what an acceleration a adds to the move of [`laws::contact::motion`]: a pass behind it, so
 //! that a scene without a fluid runs the same code as ever. On a rigid clump it acts as on a sphere of its volume at its centre
 //! ([`crate::state::clumps`]). Left out: the shape of a clump, the mass of fluid that moves along, the torque of the fluid on a particle that
 //! spins, and what particles do to the fluid and through it to each other.

@@ -1,14 +1,14 @@
 //! Particles at one instant: velocities corrected by the forces of it, and the first acceleration of those that begin to move.
 
-use crate::kernel::WrenchSums;
 use crate::model::Model;
 use crate::passes::drag::body_acceleration;
 use crate::passes::ledger::driven;
 use crate::passes::local_damping;
-use crate::simd::Row4;
-use crate::space::sphere::inverse_inertia;
 use crate::state::{DrivenBody, State};
 use geom::Vec3;
+use laws::contact::WrenchSums;
+use laws::simd::Row4;
+use laws::space::sphere::inverse_inertia;
 
 /// What a particle does at this instant.
 pub struct Instant {

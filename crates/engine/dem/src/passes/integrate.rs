@@ -1,10 +1,10 @@
-//! Moves all particles of a slice of the columns ([`crate::kernel::motion`] has the formula).
+//! Moves all particles of a slice of the columns ([`laws::contact::motion`] has the formula).
 
-use crate::kernel::wrenches::split_off;
-use crate::kernel::{MoveFlags, MoveInputs, Mover, Sums};
-use crate::simd::number::with_layout;
-use crate::simd::{Each, Four, Number, Row, Row4, Width};
 use crate::state::{Particles, SleeperSlices};
+use laws::contact::wrenches::split_off;
+use laws::contact::{MoveFlags, MoveInputs, Mover, Sums};
+use laws::simd::{Each, Four, Number, Row, Row4, Width};
+use laws::with_layout;
 use std::ops::Range;
 
 /// Columns of some particles.
@@ -99,7 +99,7 @@ mod simd {
         reason = "one loop is compiled for several widths and called after asking the processor"
     )]
     use super::*;
-    use crate::simd::x86::X4;
+    use laws::simd::x86::X4;
 
     pub fn avx2<T: Number, const SPIN: bool>(columns: ParticleSlices, drive: &MoveInputs) -> MoveFlags {
         #[target_feature(enable = "avx2")]

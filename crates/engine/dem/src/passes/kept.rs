@@ -1,12 +1,12 @@
 //! Contact history from one run to the next: read at the end of a run, given back where another starts from its particles.
 
-use crate::kernel::SlotEnd;
 use crate::model::{Model, With};
 use crate::neighbours::{NeighbourLists, Segment};
 use crate::passes::zones::history::{columns, history_at};
 use crate::setup::{ContactHistory, KeptContact, KeptPartner};
-use crate::simd::BLOCK;
 use crate::state::State;
+use laws::contact::SlotEnd;
+use laws::simd::BLOCK;
 use std::collections::BTreeMap;
 
 /// Contacts that have a history now, in the order of their lists.

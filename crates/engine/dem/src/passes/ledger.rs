@@ -1,7 +1,5 @@
 //! The energy ledger: what each step adds to its sums.
 
-use crate::effects::DISSIPATORS;
-use crate::kernel::{LEDGER, LOST};
 use crate::model::Model;
 use crate::neighbours::{NeighbourLists, Slots};
 use crate::passes::bonds::freed_energy;
@@ -12,10 +10,12 @@ use crate::passes::zones::ledger::ZoneWork;
 use crate::passes::zones::muted::{bring, mute};
 use crate::passes::{cell, local_damping, mount};
 use crate::setup::Particle;
-use crate::space::sphere::inverse_inertia;
 use crate::state::ledger::{carried, heavy, unwrapped_potential};
 use crate::state::{ContactColumns, DrivenBody, Energy, LedgerSums, State};
 use geom::Vec3;
+use laws::contact::{LEDGER, LOST};
+use laws::effects::DISSIPATORS;
+use laws::space::sphere::inverse_inertia;
 
 /// After a move: what contacts and fluid did to each particle in it.
 pub fn add_moves(model: &Model, state: &mut State) {

@@ -9,16 +9,16 @@
 //! particle in balance, or one that moves uniformly, is not damped; a falling one falls with (1 − α) g. So the damping is for specimens that are made, not
 //! for flows. A force that slows counts 1 + α times: the critical step is divided by that ([`crate::model::limit`]).
 
-use crate::kernel::WrenchSums;
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::drag::body_acceleration;
-use crate::simd::{Row, Row4};
-use crate::space::cell::Cell;
-use crate::space::sphere::inverse_inertia;
 use crate::state::State;
 use crate::threads::{FEW, share};
 use geom::Vec3;
+use laws::contact::WrenchSums;
+use laws::simd::{Row, Row4};
+use laws::space::cell::Cell;
+use laws::space::sphere::inverse_inertia;
 
 /// Particles of one task.
 const CHUNK: usize = 256;

@@ -4,7 +4,7 @@
 //! M s'' = F − k s − c s'       F: force of the particles on the wall along its direction; s = 0 where it is drawn
 //! ```
 //!
-//! Integrated as particles are ([`crate::kernel::motion`]): forces see s and s' of one instant, s' being predicted. The weight of the wall is in balance with
+//! Integrated as particles are ([`laws::contact::motion`]): forces see s and s' of one instant, s' being predicted. The weight of the wall is in balance with
 //! its spring at s = 0. In the ledger the wall is one more body: what it does to the particles is no work from outside.
 //!
 //! **Stable step**: with K Δt + C ≤ S of the contacts as for servos ([`crate::model::servo`]) the scheme is stable for ((k Δt + c) + S) Δt/M ≤ 1; a

@@ -7,19 +7,19 @@
 #[expect(dead_code, reason = "the example reads the rest of the table")]
 mod kernels;
 
-use crate::effects::*;
-use crate::kernel::contact_loop::{act, gather};
-use crate::kernel::{Batch, StepInputs, Sums, WrenchBuffer, WrenchSlicesMut};
 use crate::model::BondedPair;
 use crate::model::bonds::springs::packed;
 use crate::passes::bonds::lanes::{BondChunk, Instant};
 use crate::setup::BondNumbers;
-use crate::simd::compiled::Job;
-use crate::simd::{BLOCK, Indices, Lane, Layout, Row, Row4};
-use crate::space::cell::Cell;
 use crate::state::Particles;
 use geom::Vec3;
 use kernels::{BOND, KERNELS, Kernel};
+use laws::contact::contact_loop::{act, gather};
+use laws::contact::{Batch, StepInputs, Sums, WrenchBuffer, WrenchSlicesMut};
+use laws::effects::*;
+use laws::simd::compiled::Job;
+use laws::simd::{BLOCK, Indices, Lane, Layout, Row, Row4};
+use laws::space::cell::Cell;
 use nalgebra::UnitQuaternion;
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};

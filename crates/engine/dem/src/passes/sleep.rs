@@ -9,16 +9,16 @@
 //!
 //! Sleeping changes results: by what a bed would still have crept, and by disturbances too weak to wake it.
 
-use crate::kernel::{MoveFlags, MoveInputs};
 use crate::model::Model;
 use crate::neighbours::RestingTile;
 use crate::passes::integrate::{ParticleSlices, advance};
 use crate::passes::stirred::Stirred;
-use crate::simd::Row;
-use crate::space::sphere::inverse_inertia;
 use crate::state::SleeperSlices;
 use geom::Vec3;
 use geom::sphere::INERTIA;
+use laws::contact::{MoveFlags, MoveInputs};
+use laws::simd::Row;
+use laws::space::sphere::inverse_inertia;
 use std::ops::Range;
 
 /// Moves the particles of a tile that are awake, and checks the sleepers: all of them where `still` has just been found, later only those

@@ -2,12 +2,12 @@
 //!
 //! Forces alone do not tell: friction of a belt on a grain is capped at μ times its weight, which may be less than what wakes it.
 
-use crate::kernel::WrenchSlices;
 use crate::model::{Model, With};
 use crate::neighbours::{Disturber, Slots};
-use crate::simd::{BLOCK, Layout};
 use crate::state::{Particles, Sleepers};
 use geom::Vec3;
+use laws::contact::WrenchSlices;
+use laws::simd::{BLOCK, Layout};
 
 /// Which particles and which walls move in this step.
 pub struct Movers {

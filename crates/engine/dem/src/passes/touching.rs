@@ -1,12 +1,12 @@
 //! What touched a particle in the step before, and with which force.
 
-use crate::kernel::SlotEnd;
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::zones::history::history_at;
 use crate::setup::Touch;
 use crate::state::State;
 use geom::Vec3;
+use laws::contact::SlotEnd;
 
 /// Where particle `k` was before the last move [m].
 pub fn position_before(model: &Model, state: &State, k: usize) -> Vec3 {

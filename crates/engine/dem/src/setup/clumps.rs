@@ -1,8 +1,8 @@
 //! What the rest of the engine asks of the clumps of a setup.
 
-use crate::effects::{Compliance, Material};
 use crate::setup::clump_shape::ClumpShape;
 use crate::setup::{ClumpScales, Clumps, EntryClump, Setup};
+use laws::effects::{Compliance, Material};
 
 /// Spheres or rigid clumps of one size, and how easily they give way, for the critical step.
 #[derive(Debug, Clone, PartialEq)]

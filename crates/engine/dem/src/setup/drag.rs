@@ -1,8 +1,8 @@
 //! A fluid at uniform velocity, as a setup asks for it ([`crate::passes::drag`] says what it does).
 
-use crate::simd::Row;
-use crate::space::sphere::mass;
+use crate::space::mass;
 use geom::Vec3;
+use laws::simd::Row;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 

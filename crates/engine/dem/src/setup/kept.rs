@@ -1,6 +1,6 @@
 //! Contacts that an earlier run has left.
 
-use crate::effects::ContactHistory;
+use laws::effects::ContactHistory;
 
 /// History of a contact at the end of a run, from which another one starts.
 #[derive(Debug, Clone, Copy, PartialEq)]

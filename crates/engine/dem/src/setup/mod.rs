@@ -14,14 +14,14 @@ mod servo;
 mod strain;
 mod zone;
 
-pub use crate::effects::{ContactHistory, ContactLaw, Material};
 pub use crate::setup::bond::{
     Bond, BondKind, BondNumbers, BondSprings, BondStrength, Clusters, Spread, cluster_of,
 };
 pub use crate::setup::clump_shape::ClumpShape;
 pub use crate::setup::drag::{Drag, DragLaw};
-pub use crate::simd::number::Precision;
 pub use kept::{KeptContact, KeptPartner};
+pub use laws::effects::{ContactHistory, ContactLaw, Material};
+pub use laws::simd::number::Precision;
 pub use mount::Mount;
 pub use servo::{Length, Servo, Target};
 pub use strain::Strain;
@@ -83,7 +83,7 @@ pub struct Setup {
     pub strain: [Option<Strain>; 3],
     /// Which part of a step the force of a contact stands for.
     pub sampling: Sampling,
-    /// Whether the spheres of a wall that a grain touches at once act as one contact ([`crate::kernel::patch`]); else each acts by itself.
+    /// Whether the spheres of a wall that a grain touches at once act as one contact ([`laws::contact::patch`]); else each acts by itself.
     pub patches: bool,
     /// In which precision contacts are computed.
     pub precision: Precision,

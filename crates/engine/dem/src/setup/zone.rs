@@ -1,8 +1,8 @@
 //! Planes with regions in which particles move by a prescribed motion, and what passes them.
 
-use crate::effects::ContactHistory;
 use crate::setup::{BondNumbers, Particle};
 use geom::{Plane, Vec3};
+use laws::effects::ContactHistory;
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 

@@ -3,7 +3,6 @@
 use super::Simulation;
 use crate::device::{Device, DeviceError, DeviceTimes, Stepper};
 use crate::forces::sweep;
-use crate::kernel::device_tables::DeviceFlags;
 use crate::model::{Halt, Model};
 use crate::neighbours::poses::pose_in_box;
 use crate::neighbours::{NeighbourLists, rebuild};
@@ -12,6 +11,7 @@ use crate::passes::touching::position_before;
 use crate::simulation::step::{check_overlap, refresh_lists};
 use crate::state::{Forces, ListStatus, State};
 use geom::Vec3;
+use gpu::tables::DeviceFlags;
 
 impl Simulation {
     /// Has the steps made by a device from now on, with the same bits.

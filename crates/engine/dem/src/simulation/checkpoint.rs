@@ -5,8 +5,8 @@ use crate::forces::sweep;
 use crate::model::{SetupError, StateMismatch};
 use crate::neighbours::rebuild;
 use crate::setup::{Setup, Step};
-use crate::simd::Width;
 use crate::state::{Forces, LOOK_AHEAD, SavedColumns, State};
+use laws::simd::Width;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 

@@ -1,13 +1,13 @@
 //! What a run computes, and what each part takes.
 
 use super::Simulation;
-use crate::effects::{Description, active, damping_ratio};
-use crate::kernel::LEDGER;
 use crate::model::Model;
 use crate::model::matched::coefficients;
 use crate::setup::{ContactLaw, Sampling};
-use crate::simd::{Row, Row4};
 use crate::state::RigidClumps;
+use laws::contact::LEDGER;
+use laws::effects::{Description, active, damping_ratio};
+use laws::simd::{Row, Row4};
 use serde::Serialize;
 
 /// An effect that a scene switches on.

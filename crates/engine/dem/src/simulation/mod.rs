@@ -18,8 +18,8 @@ use crate::model::{Model, SetupError};
 use crate::neighbours::NeighbourLists;
 use crate::passes::cell;
 use crate::setup::Setup;
-use crate::simd::Width;
 use crate::state::State;
+use laws::simd::Width;
 
 /// A running simulation.
 pub struct Simulation {

@@ -1,12 +1,12 @@
-//! Positions and rotations: the search for neighbours and their margins, turning by a vector, spheres, periods and images.
+//! The search for neighbours, the order of particles, turning by a vector.
 
-pub mod cell;
-pub mod images;
-pub mod margins;
-#[cfg(not(target_arch = "nvptx64"))]
 pub mod order;
-#[cfg(not(target_arch = "nvptx64"))]
 pub mod rotation;
-#[cfg(not(target_arch = "nvptx64"))]
 pub mod search;
-pub mod sphere;
+
+const _: () = assert!(laws::space::sphere::TURNS == geom::sphere::INVERSE_INERTIA);
+
+/// Mass of a sphere [kg] of `radius` [m] and `density` [kg/m³].
+pub fn mass(radius: f64, density: f64) -> f64 {
+    geom::sphere::volume(radius) * density
+}

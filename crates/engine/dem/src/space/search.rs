@@ -1,17 +1,17 @@
 //! Which particles may touch until one leaves its margin: the Verlet list.
 //!
 //! Every particle has a margin, a ball around the position where it was listed; two are listed when they could touch without
-//! leaving their margins: |x_i − x_j| < R_i + R_j, R = r + margin. A fast particle gets a larger margin ([`crate::space::margins`]), so that a few fast ones
+//! leaving their margins: |x_i − x_j| < R_i + R_j, R = r + margin. A fast particle gets a larger margin ([`laws::space::margins`]), so that a few fast ones
 //! do not force a rebuild of the whole list, and slow ones are listed with few partners.
 //!
 //! Verlet (1967), Phys. Rev. 159; a margin for each particle instead of one skin for all. The list is a function of positions and
 //! margins alone. Particles are sorted by blocks of about a tile, so that few partners are of another tile, and in these along the shortest
 //! side of their box first.
 
-use crate::space::cell::ImageOf;
 use crate::threads::{each, nth, share, sort};
 use geom::grid::bounds;
 use geom::{Grid, Vec3};
+use laws::space::cell::ImageOf;
 use std::ops::Range;
 
 /// Share of the particles that cells are made for; what reaches farther than half a cell is searched one by one.
@@ -245,7 +245,7 @@ const LARGEST_TILE: usize = 2048;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::cell::Cell;
+    use laws::space::cell::Cell;
     use rand_pcg::rand_core::{Rng, SeedableRng};
 
     /// Grains of which a few reach up to 25 times as far as the others, and several as far as each other, in a box that is periodic along all axes.

@@ -5,7 +5,7 @@
 //! end has turned:
 //!
 //! ```text
-//! q ← exp(ω_{n−½} Δt) q,   ω_{n−½} = w*_n − α_{n−1} Δt/2          what [`crate::kernel::motion`] has turned it by
+//! q ← exp(ω_{n−½} Δt) q,   ω_{n−½} = w*_n − α_{n−1} Δt/2          what [`laws::contact::motion`] has turned it by
 //! ```
 //!
 //! Places and turns of one instant in the springs, velocities predicted for it in the dashpots: with springs alone that is velocity Verlet, which makes no energy
@@ -19,17 +19,18 @@
 //! both ends instead, so that nothing is lost by rounding or order: Wang (2009), Acta Geotech. 4, doi:10.1007/s11440-008-0072-1. Beam in a frame that turns along:
 //! Crisfield (1990), Comput. Methods Appl. Mech. Eng. 81, doi:10.1016/0045-7825(90)90106-V.
 
-use crate::kernel::Sums;
 use crate::model::bonds::find;
 use crate::model::bonds::springs::{packed, replaces_contact};
 use crate::model::{BondedPair, BreakMode, NewBond, Pull, SetupError, Springs};
 use crate::setup::{CrossingBond, Setup};
-use crate::simd::Row4;
 use crate::space::rotation::spun;
 use crate::state::Particles;
 use crate::state::particles::select;
+use crate::state::row_order::RowOrder;
 use crate::threads::{FEW, share};
 use geom::Vec3;
+use laws::contact::Sums;
+use laws::simd::Row4;
 use nalgebra::{Quaternion, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
@@ -178,27 +179,45 @@ impl Bonds {
         [self.pulls.iter().map(|p| p.power).sum(), self.lost]
     }
 
-    /// Reorders with the particles: `order` has the old row of each that stays, `new` the new row of each, `ids` the new ids. Bonds lie in
-    /// the order of their particles, which are then fetched from near each other.
-    pub fn reorder(&mut self, order: &[u32], new: &[u32], ids: &[u32]) {
+    /// Follows the particles into their new order, in which their ids are `ids`. Bonds lie in the order of their particles, which are then
+    /// fetched from near each other.
+    pub fn reorder(&mut self, to: &RowOrder, ids: &[u32]) {
         if self.none() {
             return;
         }
         let count = self.count();
-        self.pairs.iter_mut().for_each(|pair| pair.ends = pair.ends.map(|k| new[k as usize]));
-        let pairs = &self.pairs;
-        let stays = |&n: &u32| !pairs[n as usize].ends.contains(&u32::MAX);
+        let Bonds {
+            pairs,
+            springs,
+            pulls,
+            turns,
+            // Counted below, and indexed.
+            left: _,
+            starts: _,
+            entries: _,
+            // Of no particle, or by its id.
+            on: _,
+            lost: _,
+            at: _,
+            freed: _,
+            cracks: _,
+            due: _,
+            idle: _,
+            waiting: _,
+        } = self;
+        pairs.iter_mut().for_each(|pair| pair.ends = pair.ends.map(|k| to.new[k as usize]));
+        let stays = |&n: &u32| !pairs[n as usize].ends.contains(&RowOrder::LEFT);
         let mut kept: Vec<u32> = (0..pairs.len() as u32).filter(stays).collect();
         kept.sort_unstable_by_key(|&n| {
             let [i, j] = pairs[n as usize].ends;
             (i.min(j), i.max(j))
         });
-        select(&mut self.pairs, &kept, 0);
-        select(&mut self.springs, &kept, 0);
-        select(&mut self.pulls, &kept, 0);
+        select(pairs, &kept, 0);
+        select(springs, &kept, 0);
+        select(pulls, &kept, 0);
+        select(turns, to.order, 0);
         let here = self.count();
         self.left = [0, 1].map(|n| self.left[n] + count[n] - here[n]);
-        select(&mut self.turns, order, 0);
         self.index(ids);
     }
 
@@ -256,7 +275,7 @@ impl Bonds {
 
     /// Adds what bonds do to some particles.
     pub fn add(&self, sums: &mut Sums) {
-        for at in 0..if self.none() { 0 } else { sums.len() } {
+        for at in 0..if self.none() { 0 } else { sums.particles() } {
             let k = sums.first + at;
             for &entry in &self.entries[self.starts[k] as usize..self.starts[k + 1] as usize] {
                 let (pull, second) = (&self.pulls[(entry >> 1) as usize], entry & 1 == 1);

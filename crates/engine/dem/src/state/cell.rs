@@ -3,9 +3,9 @@
 use crate::model::Model;
 use crate::model::check::least_period;
 use crate::setup::Setup;
-use crate::space::cell::Cell;
 use crate::state::{Governor, Held, State};
 use geom::Vec3;
+use laws::space::cell::Cell;
 use serde::{Deserialize, Serialize};
 
 /// Where a cell that is strained is. Its centre stays.

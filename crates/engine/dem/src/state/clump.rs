@@ -1,12 +1,12 @@
 //! One clump: its state, and its step.
 
 use crate::setup::Setup;
-use crate::simd::{Row, Row4, fetch};
 use crate::space::rotation;
 use crate::state::ledger::heavy;
 use crate::state::{DrivenBody, Particles};
 use geom::Vec3;
 use geom::sphere::INERTIA;
+use laws::simd::{Row, Row4, fetch};
 use nalgebra::{Quaternion, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;

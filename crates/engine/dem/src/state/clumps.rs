@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! F = Σ F_k,   τ = Σ (r_k × F_k + M_k)              in the order of the members
-//! v_n = v* + (a_n − a_{n−1}) Δt/2,   L_n = L* + (τ_n − τ_{n−1}) Δt/2        as in [`crate::kernel::motion`]
+//! v_n = v* + (a_n − a_{n−1}) Δt/2,   L_n = L* + (τ_n − τ_{n−1}) Δt/2        as in [`laws::contact::motion`]
 //! x ← x + v_n Δt + a_n Δt²/2,   v* ← v_n + a_n Δt
 //! R ← free turn of L_n + τ_n Δt/2 over Δt ([`turn`]),   L* ← L_n + τ_n Δt
 //! ```
@@ -15,13 +15,14 @@
 //! 107, doi:10.1063/1.474310. Members of one clump never form a contact: such pairs are left out of the lists.
 
 use crate::setup::{Body, EntryClump, Particle, Setup};
-use crate::simd::Row4;
-use crate::space::cell::Cell;
 use crate::space::rotation;
 use crate::state::clump::quaternion;
 use crate::state::particles::select;
+use crate::state::row_order::RowOrder;
 use crate::state::{ClumpMotion, Particles};
 use geom::Vec3;
+use laws::simd::Row4;
+use laws::space::cell::Cell;
 use serde::{Deserialize, Serialize};
 
 /// A particle that belongs to no clump.
@@ -168,17 +169,18 @@ impl RigidClumps {
         self.body_of(k).map_or_else(Vec3::zeros, |f| quaternion(&f.turn) * self.arms[k].vector())
     }
 
-    /// Reorders with the particles: `order` has the old row of each that stays, `new` the new row of each. Clumps stay or leave whole.
-    pub fn reorder(&mut self, order: &[u32], new: &[u32]) {
+    /// Follows the particles into their new order. Clumps stay or leave whole.
+    pub fn reorder(&mut self, to: &RowOrder) {
         if self.none() {
             return;
         }
-        self.cover(new.len());
-        self.keep(new);
-        self.members.iter_mut().for_each(|m| *m = new[*m as usize]);
-        select(&mut self.of, order, 0);
-        select(&mut self.arms, order, 0);
-        select(&mut self.images, order, 0);
+        self.cover(to.new.len());
+        self.keep(&to.new);
+        let RigidClumps { flights: _, members, of, arms, images } = self;
+        members.iter_mut().for_each(|m| *m = to.new[*m as usize]);
+        select(of, to.order, 0);
+        select(arms, to.order, 0);
+        select(images, to.order, 0);
     }
 
     /// Makes the columns as long as there are particles: those that were added last are free.
@@ -263,9 +265,9 @@ pub fn starts(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::Material;
     use crate::setup::ClumpShape;
     use geom::Moments;
+    use laws::effects::Material;
 
     /// Spheres that came in since the last rebuild have no entry yet, and some of them may have left already.
     #[test]
@@ -281,7 +283,7 @@ mod tests {
         setup.clumps.placed.push(body);
         let mut particles = Particles::new(true);
         let mut clumps = RigidClumps::new(&setup, &mut particles);
-        clumps.reorder(&[0, 1, 4], &[0, 1, u32::MAX, u32::MAX, 2]);
+        clumps.reorder(&RowOrder::of(&[0, 1, 4], 5));
         assert_eq!((&clumps.of[..], &clumps.members[..]), (&[0, 0, FREE][..], &[0, 1][..]));
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Which contact has which slot follows from Model and State ([`crate::neighbours`]); these columns do not.
 
-use crate::kernel::{LEDGER, STIFFNESS, WrenchSlices, WrenchSlicesMut, WrenchSums};
-use crate::simd::{Aligned, Layout};
+use laws::contact::{LEDGER, STIFFNESS, WrenchSlices, WrenchSlicesMut, WrenchSums};
+use laws::simd::{Aligned, Layout};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 

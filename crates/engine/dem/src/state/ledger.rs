@@ -8,12 +8,12 @@
 //!
 //! Sums run in the order of particles and contacts: they are the same for any number of threads.
 
-use crate::effects::DISSIPATORS;
 use crate::model::Model;
 use crate::setup::{Particle, Setup};
-use crate::space::sphere::mass;
+use crate::space::mass;
 use crate::state::{Bonds, State};
 use geom::Vec3;
+use laws::effects::DISSIPATORS;
 use serde::{Deserialize, Serialize};
 
 /// Sums since the start [J].

@@ -14,6 +14,7 @@ pub mod mount;
 pub mod particles;
 pub mod path;
 pub mod returned;
+pub mod row_order;
 pub mod servo;
 pub mod sleepers;
 pub mod validity;

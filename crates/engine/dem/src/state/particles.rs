@@ -1,17 +1,19 @@
 //! The particles' columns, in space order.
 
-use crate::effects::Material;
 use crate::setup::Particle;
-use crate::simd::{Row, Row4};
-use crate::space::sphere::{FAR, mass};
+use crate::space::mass;
+use crate::state::row_order::RowOrder;
 use crate::threads::refill;
 use geom::Vec3;
+use laws::effects::Material;
+use laws::simd::{Row, Row4};
+use laws::space::sphere::FAR;
 use serde::{Deserialize, Serialize};
 
 /// Columns, one entry a particle; `rows` and `spins` have two more ([`FAR`]).
 ///
 /// Positions are those of the step; velocities and spins are predicted for it from the acceleration of the step
-/// before, so that forces use positions and velocities of one instant ([`crate::kernel::motion`]).
+/// before, so that forces use positions and velocities of one instant ([`laws::contact::motion`]).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Particles {
     /// x, y, z, radius [m], predicted velocity [m/s], 1/m [1/kg].
@@ -127,17 +129,18 @@ impl Particles {
         self.home.reserve_exact(more);
     }
 
-    /// Takes the particles named by `order`, and leaves the others.
-    pub fn select(&mut self, order: &[u32], spare: &mut SpareColumns) {
-        let rotates = self.rotates();
-        let SpareColumns { rows, quads } = spare;
-        select_by(rows, &mut self.rows, order, TAIL);
-        select_by(quads, &mut self.acceleration, order, 0);
+    /// Takes the particles that stay, in their new order.
+    pub fn reorder(&mut self, to: &RowOrder, spare: &mut SpareColumns) {
+        let (rotates, order) = (self.rotates(), to.order);
+        let Particles { rows, acceleration, spins, angular_acceleration, home, id: _, material: _ } = self;
+        let SpareColumns { rows: spare_rows, quads } = spare;
+        select_by(spare_rows, rows, order, TAIL);
+        select_by(quads, acceleration, order, 0);
         if rotates {
-            select_by(quads, &mut self.spins, order, TAIL);
-            select_by(quads, &mut self.angular_acceleration, order, 0);
+            select_by(quads, spins, order, TAIL);
+            select_by(quads, angular_acceleration, order, 0);
         }
-        select_by(quads, &mut self.home, order, 0);
+        select_by(quads, home, order, 0);
         // With many threads, page faults of new memory take longer than the sorting; with few they are negligible.
         if rayon::current_num_threads() <= FEW_THREADS {
             *spare = SpareColumns::default();

@@ -3,6 +3,7 @@
 use crate::model::{Entrance, Halt};
 use crate::setup::Setup;
 use crate::state::particles::select;
+use crate::state::row_order::RowOrder;
 use crate::state::{Direction, Zones};
 use geom::Vec3;
 use serde::{Deserialize, Serialize};
@@ -75,9 +76,11 @@ impl ReturnCounts {
         }
     }
 
-    pub fn reorder(&mut self, order: &[u32]) {
-        if !self.returned.inlets.is_empty() {
-            select(&mut self.origins, order, 0);
+    /// Takes the particles that stay, in their new order.
+    pub fn reorder(&mut self, to: &RowOrder) {
+        let ReturnCounts { origins, any: _, returned } = self;
+        if !returned.inlets.is_empty() {
+            select(origins, to.order, 0);
         }
     }
 

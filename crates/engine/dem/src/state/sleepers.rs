@@ -1,9 +1,10 @@
 //! Particles that sleep ([`crate::passes::sleep`] says when).
 
-use crate::kernel::wrenches::split_off;
 use crate::setup::Sleep;
-use crate::simd::Row;
 use crate::state::particles::select;
+use crate::state::row_order::RowOrder;
+use laws::contact::wrenches::split_off;
+use laws::simd::Row;
 use serde::{Deserialize, Serialize};
 
 /// Which particles sleep, and since when that is so.
@@ -77,11 +78,23 @@ impl Sleepers {
         self.held.push(Row::default());
     }
 
-    /// Takes the particles named by `order`.
-    pub fn select(&mut self, order: &[u32]) {
-        select(&mut self.quiet, order, 0);
-        select(&mut self.held, order, 0);
-        select(&mut self.asleep, order, 2);
+    /// Takes the particles that stay, in their new order.
+    pub fn reorder(&mut self, to: &RowOrder) {
+        let Sleepers {
+            quiet,
+            held,
+            asleep,
+            // Filled in each step, or of no particle.
+            next: _,
+            steps: _,
+            speed: _,
+            wake: _,
+            turns: _,
+            changed: _,
+        } = self;
+        select(quiet, to.order, 0);
+        select(held, to.order, 0);
+        select(asleep, to.order, 2);
     }
 
     /// Number of sleepers.

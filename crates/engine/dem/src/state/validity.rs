@@ -4,11 +4,11 @@
 
 use crate::model::StateMismatch;
 use crate::setup::{EntryClump, Particle, Sample, Setup};
-use crate::space::sphere::away;
 use crate::state::{
     Bonds, CellState, ClumpMotion, Direction, FREE, Forces, Held, ListStatus, Particles, RigidClumps,
     ServoState, Sleepers, State, ZoneParticle, Zones,
 };
+use laws::space::sphere::away;
 
 /// More than anything is counted up to: what is added to it stays a number.
 const MANY: u64 = 1 << 31;

@@ -7,9 +7,10 @@
 //! A zone particle's row is overwritten after each move, so that the move itself needs no zones.
 
 use crate::setup::{ContactHistory, Crossing, Entry, Setup, Zone};
-use crate::simd::Row4;
 use crate::state::particles::select;
+use crate::state::row_order::RowOrder;
 use crate::state::{Direction, Particles, Path, ReturnCounts, ZoneParticle};
+use laws::simd::Row4;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -137,19 +138,38 @@ impl Zones {
         told
     }
 
-    /// Reorders with the particles: `order` has the old row of each that stays, `new` the new row of each.
-    pub fn reorder(&mut self, order: &[u32], new: &[u32]) {
+    /// Follows the particles into their new order.
+    pub fn reorder(&mut self, to: &RowOrder) {
         if self.none() {
             return;
         }
+        let Zones {
+            zone_particles,
+            prescribed,
+            gone,
+            left,
+            lost,
+            // Found again when neighbours are listed.
+            near: _,
+            // Of no particle, or by its id.
+            outlets: _,
+            inlets: _,
+            beyond: _,
+            crossed: _,
+            pending: _,
+            crossings: _,
+            ids: _,
+            paths: _,
+            histories: _,
+            sampled: _,
+            latest: _,
+        } = self;
         // A row that is gone has none; only a checkpoint that was changed has both.
-        self.zone_particles.retain(|t| new[t.at as usize] != u32::MAX);
-        for t in &mut self.zone_particles {
-            t.at = new[t.at as usize];
-        }
-        select(&mut self.prescribed, order, 0);
-        self.gone = vec![false; order.len()];
-        self.left.clear();
-        self.lost.reorder(order);
+        zone_particles.retain(|t| to.new[t.at as usize] != RowOrder::LEFT);
+        zone_particles.iter_mut().for_each(|t| t.at = to.new[t.at as usize]);
+        select(prescribed, to.order, 0);
+        *gone = vec![false; to.order.len()];
+        left.clear();
+        lost.reorder(to);
     }
 }

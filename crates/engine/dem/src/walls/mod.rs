@@ -2,7 +2,7 @@
 //!
 //! A wall sphere is its centre and radius; a plane or a triangle is the point of it that is nearest to the particle, with radius
 //! 0. A wall has no mass of its own in a contact (1/m = 0, so m* = m_i). Across a periodic face its images act: the partner
-//! of a contact tells part and image ([`crate::space::images`]).
+//! of a contact tells part and image ([`laws::space::images`]).
 //!
 //! The surface of a belt moves on its wall, which stays where it is: at a contact with the normal n a contact point has the velocity of the wall
 //! plus v_s − (v_s·n) n, with v_s that of the surface there. So a belt drives along itself and never pushes.
@@ -11,15 +11,15 @@ pub(crate) mod beside;
 pub(crate) mod seams;
 mod translation;
 
-use crate::kernel::wall_point::WallPose;
 use crate::setup::{Mount, Servo, Wall, WallShape};
-use crate::simd::{Row, Row4};
-use crate::space::images::Image;
 use crate::space::order;
-use crate::space::sphere::{FAR, is_away};
 use crate::walls::seams::{HistorySlots, Nearest};
 use geom::motion::{Pose, SurfaceMotion};
 use geom::{Boxes, Grid, Motion, Plane, Vec3};
+use laws::contact::wall_point::WallPose;
+use laws::simd::{Row, Row4};
+use laws::space::images::Image;
+use laws::space::sphere::{FAR, is_away};
 use std::collections::HashSet;
 
 /// A wall, ready to be met.

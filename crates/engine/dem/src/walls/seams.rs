@@ -9,11 +9,11 @@
 //! a neighbour without history counts, the neighbour takes over (the nearest one, within a quarter of r: contact points
 //! move less in a step). The spring is turned into the new tangent plane by the effect itself.
 
-use crate::kernel::{LEDGER, STIFFNESS};
-use crate::simd::{BLOCK, Layout};
 use crate::walls::translation::{Face, groups, shortest};
 use geom::Vec3;
 use geom::triangle::{Feature, closest_feature};
+use laws::contact::{LEDGER, STIFFNESS};
+use laws::simd::{BLOCK, Layout};
 
 /// Two points closer than this share of the distance are one contact [–].
 const SAME_POINT: f64 = 1e-6;

@@ -1,8 +1,8 @@
 //! Walls by themselves.
 
 use super::*;
-use crate::simd::number::Layout;
-use crate::space::sphere::away;
+use laws::simd::number::Layout;
+use laws::space::sphere::away;
 
 /// A particle that is out of the calculation touches no shape of wall, whichever way it faces.
 #[test]

@@ -2,9 +2,9 @@
 
 use super::{advance, every_composition, shaken, there, trough};
 use crate::device::{Device, DeviceError, Local, functions};
-use crate::kernel::device_tables::{Address, DeviceTables};
-use crate::kernel::lists::WRITE;
 use crate::{Halt, Setup};
+use gpu::lists::WRITE;
+use gpu::tables::{Address, DeviceTables};
 
 /// A table of a device, and how many of its bytes are overwritten.
 type Damage = fn(&DeviceTables) -> (Address, usize);
@@ -68,7 +68,7 @@ fn words(count: u32) -> usize {
 
 #[test]
 fn numbers_beyond_their_tables_stop_the_run() {
-    let blocks = |t: &DeviceTables| (t.contacts.blocks, 3 * words(t.slot_count / crate::simd::BLOCK as u32));
+    let blocks = |t: &DeviceTables| (t.contacts.blocks, 3 * words(t.slot_count / laws::simd::BLOCK as u32));
     let cases: [(&str, &'static str, Option<u32>, Damage); 5] = [
         ("partners", "hertz_rolling", None, |t| (t.contacts.partner, words(t.slot_count))),
         ("blocks", "hertz_rolling", None, blocks),

@@ -6,9 +6,9 @@ use crate::model::bonds::kinds::{End, numbers};
 use crate::model::quantity::material_names;
 use crate::setup::bond::cluster_of;
 use crate::setup::{Bond, BondNumbers, Particle, Setup};
-use crate::space::cell::Cell;
 use crate::space::search::{Search, pairs};
 use geom::Vec3;
+use laws::space::cell::Cell;
 use nalgebra::UnitQuaternion;
 
 /// A particle that may be bonded.
@@ -31,7 +31,7 @@ pub fn grains(setup: &Setup) -> Vec<Grain> {
     let mut sorted: Vec<_> = setup.particles.iter().collect();
     sorted.sort_unstable_by_key(|p| p.id);
     let grain = |(p, row): (&Particle, u32)| {
-        let mass = crate::space::sphere::mass(p.radius, setup.materials[p.material as usize].density);
+        let mass = crate::space::mass(p.radius, setup.materials[p.material as usize].density);
         let end = End { id: p.id, radius: p.radius, mass, turn: UnitQuaternion::identity() };
         Grain {
             row,

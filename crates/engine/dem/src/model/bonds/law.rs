@@ -12,10 +12,10 @@
 //!
 //! All kinds of bonds are such springs ([`super::kinds`]). Of a beam, w = ½ and k_s = 12 k_b/L²: 2 E I/L (a_i² + a_i·a_j + a_j²).
 //!
-//! On lanes, as contacts are: inlined, without closures ([`crate::simd`]).
+//! On lanes, as contacts are: inlined, without closures ([`laws::simd`]).
 
 use super::springs::SpringLanes;
-use crate::simd::{Lane, Turn, V};
+use laws::simd::{Lane, Turn, V};
 use serde::{Deserialize, Serialize};
 
 /// Bonded particles.

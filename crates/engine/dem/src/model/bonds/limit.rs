@@ -13,7 +13,7 @@ use crate::model::bonds::motions::{inverse, motions};
 use crate::model::step_cause::root;
 use crate::model::{BondedParticle, CriticalBonds, Limit, SetupError};
 use crate::setup::{Bond, EntryBonds, Setup};
-use crate::space::sphere::mass;
+use crate::space::mass;
 use geom::Vec3;
 use nalgebra::{Matrix6, UnitQuaternion, Vector6};
 

@@ -3,8 +3,8 @@
 use super::law::{Ends, Pull, Pulls, pulls};
 use super::springs::{SpringLanes, packed};
 use crate::setup::BondNumbers;
-use crate::simd::{Turn, V};
 use geom::Vec3;
+use laws::simd::{Turn, V};
 use nalgebra::UnitQuaternion;
 
 /// What a bond does: the centre of i relative to that of j [m] and its velocity [m/s], spins [rad/s] and turns of both since turns are counted.

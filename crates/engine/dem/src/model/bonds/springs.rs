@@ -11,8 +11,8 @@
 use crate::model::BreakMode;
 use crate::setup::BondNumbers;
 use crate::setup::bond::resists;
-use crate::simd::{Lane, Row, Turn, V};
 use geom::Vec3;
+use laws::simd::{Lane, Row, Turn, V};
 use nalgebra::{Quaternion, UnitQuaternion};
 use std::f64::consts::PI;
 

@@ -3,10 +3,10 @@
 use crate::model::BondedPair;
 use crate::model::bonds::law::{Ends, Pull, Pulls, pulls};
 use crate::model::bonds::springs::{SpringLanes, Springs};
-use crate::simd::compiled::Job;
-use crate::simd::{BLOCK, Indices, Lane, Row, Row4, Turn, V};
-use crate::space::cell::Cell;
 use crate::state::Particles;
+use laws::simd::compiled::Job;
+use laws::simd::{BLOCK, Indices, Lane, Row, Row4, Turn, V};
+use laws::space::cell::Cell;
 
 /// Added and taken off again, it rounds a number to a whole one: 3/2 · 2⁵².
 const ROUND: f64 = 6_755_399_441_055_744.0;

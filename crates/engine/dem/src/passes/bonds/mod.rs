@@ -8,15 +8,15 @@ pub mod lanes;
 pub mod make;
 pub mod zones;
 
-use crate::kernel::LEDGER;
 use crate::model::bonds::springs::{breaks, numbers, replaces_contact};
 use crate::model::{BondedPair, GONE, Model, Pull, Springs};
 use crate::neighbours::NeighbourLists;
 use crate::passes::bonds::lanes::{BondChunk, Instant};
-use crate::simd::compiled::{self, Registers};
 use crate::state::bonds::CHUNK;
 use crate::state::{BondState, Bonds, Crack, ListStatus, State};
 use crate::threads::{FEW, share};
+use laws::contact::LEDGER;
+use laws::simd::compiled::{self, Registers};
 
 /// Brings bonds to this instant: those that break do nothing any more. None breaks while both of its particles are in zones, where nothing acts on them.
 pub fn act(model: &Model, state: &mut State) {

@@ -1,14 +1,14 @@
 //! The pass after each move.
 
-use crate::kernel::MoveFlags;
 use crate::model::Model;
 use crate::passes::clumps::instant::damped;
 use crate::passes::clumps::members::{MemberRows, Members, Write};
 use crate::setup::Setup;
-use crate::simd::compiled::{self, Registers};
-use crate::space::cell::Cell;
 use crate::state::{ClumpMotion, Particles, RigidClumps, State};
 use crate::threads::share;
+use laws::contact::MoveFlags;
+use laws::simd::compiled::{self, Registers};
+use laws::space::cell::Cell;
 
 /// Bodies, or rows, of one task; fewer are not worth another thread.
 const CHUNK: usize = 512;

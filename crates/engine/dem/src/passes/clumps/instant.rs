@@ -1,14 +1,14 @@
 //! Clumps at one instant, for observers.
 
-use crate::kernel::WrenchSums;
 use crate::model::Model;
 use crate::passes::local_damping::against;
 use crate::setup::Setup;
-use crate::space::cell::Cell;
 use crate::space::rotation;
 use crate::state::clump::quaternion;
 use crate::state::{ClumpMotion, DrivenBody, RigidClumps, State};
 use geom::Vec3;
+use laws::contact::WrenchSums;
+use laws::space::cell::Cell;
 use nalgebra::UnitQuaternion;
 
 /// A clump at one instant.

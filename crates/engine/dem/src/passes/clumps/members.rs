@@ -1,10 +1,10 @@
 //! The rows of members: position, velocity and spin of a sphere that a clump carries along, for as many spheres at a time as a lane has.
 
-use crate::kernel::MoveFlags;
-use crate::simd::compiled::Job;
-use crate::simd::{BLOCK, Indices, Lane, Row, Row4, V};
-use crate::space::cell::{Cell, ImageOf};
 use crate::state::{ClumpMotion, RigidClumps};
+use laws::contact::MoveFlags;
+use laws::simd::compiled::Job;
+use laws::simd::{BLOCK, Indices, Lane, Row, Row4, V};
+use laws::space::cell::{Cell, ImageOf};
 
 /// Rows whose clumps are looked up together.
 const ROWS: usize = 64;
@@ -222,12 +222,12 @@ fn store4<R: Lane>(columns: [R; 4], to: &mut [Row4]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::Material;
     use crate::setup::{Body, ClumpShape, Clumps, Particle, Setup};
-    use crate::simd::Width;
-    use crate::simd::compiled::{self, Registers};
     use crate::state::Particles;
     use geom::{Moments, Vec3};
+    use laws::effects::Material;
+    use laws::simd::Width;
+    use laws::simd::compiled::{self, Registers};
     use nalgebra::UnitQuaternion;
 
     /// Clumps of one to five members with a free sphere after each third one, in a cell that shrinks: each member has the row that

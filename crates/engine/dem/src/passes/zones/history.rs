@@ -3,13 +3,13 @@
 //! The record is made at the passage of `id`, whose partner is free then, too: both feel the contact. So it is given back when `id` is
 //! free behind the calculation plane, and the partner still on its way in; from then on the contact continues without the record.
 
-use crate::kernel::SlotEnd;
 use crate::model::Model;
 use crate::model::limit::contact_between;
 use crate::neighbours::{NeighbourLists, Segment};
 use crate::setup::ContactHistory;
-use crate::simd::BLOCK;
 use crate::state::State;
+use laws::contact::SlotEnd;
+use laws::simd::BLOCK;
 use std::ops::Range;
 
 /// History of a contact, as the particle at this end sees it.

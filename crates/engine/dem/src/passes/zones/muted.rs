@@ -4,14 +4,14 @@
 //! free acts from then on, and is brought in with it; what it holds when its particle passes a storage plane is taken along. Both are booked in the
 //! middle of a step: half of what the step at its instant did counts on the side where it acts.
 
-use crate::effects::DISSIPATORS;
-use crate::kernel::{LEDGER, SlotEnd, WrenchSums};
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::zones::whole::rows_with;
 use crate::setup::Particle;
 use crate::state::State;
 use geom::Vec3;
+use laws::contact::{LEDGER, SlotEnd, WrenchSums};
+use laws::effects::DISSIPATORS;
 
 /// Contacts of particle `k` that act on nothing while it is in a zone.
 fn passive<'a>(state: &'a State, lists: &'a NeighbourLists, k: usize) -> impl Iterator<Item = SlotEnd> + 'a {

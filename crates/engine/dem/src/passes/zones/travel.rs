@@ -7,13 +7,13 @@ use crate::passes::zones::history::restore_history;
 use crate::passes::zones::muted::held;
 use crate::passes::zones::whole::test_point;
 use crate::setup::Particle;
-use crate::simd::Row4;
-use crate::space::sphere::away;
 use crate::state::bonds::row_of;
 use crate::state::clump::quaternion;
 use crate::state::ledger::carried;
 use crate::state::{Direction, Kinematics, ListStatus, PathEnd, State, ZoneParticle};
 use geom::Vec3;
+use laws::simd::Row4;
+use laws::space::sphere::away;
 
 /// Moves all zone particles, and ends the motion of those that are through their zone.
 pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut NeighbourLists) {

@@ -1,0 +1,26 @@
+//! What each thread of a GPU does, and the tables that it reads and writes.
+//!
+//! Threads call the functions of [`laws`] that a processor calls, so that both give the same bits. `crates/engine/cuda/kernels` compiles
+//! them for GPUs; `dem::device` sends the tables and says which function runs when.
+//!
+//! ```text
+//! tables        what lies in the memory of the device
+//! compositions  the compositions of effects that devices have
+//! threads       a contact, a particle
+//! lists         neighbour lists: cells, pairs, slots
+//! ```
+
+#![no_std]
+
+extern crate alloc;
+#[cfg(test)]
+extern crate std;
+
+pub mod compositions;
+pub mod lists;
+pub mod tables;
+pub mod threads;
+
+// The macros name effects by it.
+#[doc(hidden)]
+pub use laws;

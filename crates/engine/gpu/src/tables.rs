@@ -1,0 +1,226 @@
+//! Tables in the memory of a device: what its threads ([`crate::threads`]) read and write.
+#![expect(unsafe_code, reason = "a table is an address in the memory of the device")]
+
+use crate::lists::tables::ListTables;
+use core::slice;
+use laws::contact::MoveInputs;
+use laws::simd::Layout;
+
+/// Where a table begins, in the memory of the device.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[repr(transparent)]
+pub struct Address(pub u64);
+
+impl Address {
+    /// Row `k` of a table.
+    #[inline(always)]
+    pub fn at<T>(self, k: usize) -> *mut T {
+        (self.0 as *mut T).wrapping_add(k)
+    }
+}
+
+/// A kind of contact, as a device knows it.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct DeviceKind {
+    /// Which of the compositions ([`crate::compositions::NAMES`]).
+    pub composition: u32,
+    /// What its particles meet.
+    pub with: u32,
+    /// First of the numbers of its effects.
+    pub numbers: u32,
+    /// Which wall they meet.
+    pub wall: u32,
+    /// Materials of its particles; the second is that of the wall where they meet one.
+    pub between: [u32; 2],
+    /// First of its classes in the lists of a tile; of images, its number among them.
+    pub class: u32,
+    /// Numbers of history that each contact keeps.
+    pub columns: u32,
+    /// Which of these take the opposite sign when the two particles are exchanged, by bits.
+    pub flips: u32,
+    /// How contacts with spheres of a wall share it: 0: each by itself; 1: u ∝ δ²; 2: u ∝ δ^(5/2).
+    pub patch: u32,
+    /// Point and normal of a plane, as at t = 0.
+    pub plane: [[f64; 3]; 2],
+}
+
+/// What the particles of a kind meet: each other.
+pub const PARTICLES: u32 = 0;
+/// Each other across a periodic face.
+pub const IMAGES: u32 = 1;
+/// Wall spheres at rest.
+pub const SPHERES: u32 = 2;
+/// Wall spheres that move, or whose surface does.
+pub const MOVED_SPHERES: u32 = 3;
+/// A plane.
+pub const PLANE: u32 = 4;
+
+/// A block of slots.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct DeviceBlock {
+    /// Its kind of contact.
+    pub kind: u32,
+    /// First word of its history.
+    pub history: u32,
+    /// First of its points ([`DeviceTables::points`]).
+    pub point: u32,
+}
+
+/// What a step found, beside what it moved.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct DeviceFlags {
+    /// 1 + the step after which lists must be rebuilt or a guard asked; 0: none yet. Later steps do nothing.
+    pub stopped: u32,
+    /// Whether a particle has left its margin.
+    pub left_margin: u32,
+    /// Whether one moved too far.
+    pub too_fast: u32,
+    /// Whether an overlap passes its limit.
+    pub deep: u32,
+    /// Whether a number in a table names a row that another does not have: memory is damaged, and the run cannot go on.
+    pub beyond: u32,
+}
+
+/// Columns of particles.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct ParticleTables {
+    /// [`Row`] of each, and two more that nothing touches.
+    pub rows: Address,
+    /// [`Row4`] of each, and two more; none without rotation.
+    pub spins: Address,
+    /// [`Row4`] of each.
+    pub acceleration: Address,
+    /// [`Row4`] of each; none without rotation.
+    pub angular_acceleration: Address,
+    /// [`Row4`] of each: where it was listed, and its margin.
+    pub home: Address,
+    /// Material of each, four bytes.
+    pub material: Address,
+    /// Where each was when all of them were sent.
+    pub place: Address,
+}
+
+/// Columns of contacts, and which of them each particle has.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct ContactTables {
+    /// First particle of each, a number of four bytes.
+    pub i: Address,
+    /// Second particle, or image and part of a wall.
+    pub partner: Address,
+    /// History, by block and column.
+    pub history: Address,
+    /// [`DeviceBlock`] of each block of slots.
+    pub blocks: Address,
+    /// First contact of each particle, and one more.
+    pub starts: Address,
+    /// Contacts of particles ([`laws::contact::SlotEnd`]) in the order of their slots.
+    pub entries: Address,
+}
+
+/// Tables of a step, and what all threads share.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct DeviceTables {
+    /// Of the move.
+    pub drive: MoveInputs,
+    /// Largest overlap over the smaller radius [–].
+    pub overlap_limit: f64,
+    /// Number of particles.
+    pub particle_count: u32,
+    /// Number of slots.
+    pub slot_count: u32,
+    /// 1 where particles turn.
+    pub rotates: u32,
+    /// 1 where any effect makes torques.
+    pub torques: u32,
+    /// Number of points.
+    pub point_count: u32,
+    /// Number of words of history.
+    pub history_count: u32,
+    /// Columns of the particles.
+    pub particles: ParticleTables,
+    /// Columns of the contacts.
+    pub contacts: ContactTables,
+    /// Whether the contact in a slot acts, a byte.
+    pub acts: Address,
+    /// Force of each contact, and the moment of its tangential part where particles turn.
+    pub forces: Address,
+    /// Torque of each contact besides; none where no effect makes any.
+    pub moments: Address,
+    /// [`Row`] of each contact that is not between two particles: of its contact point on wall spheres at rest; else centre and radius of the wall sphere as
+    /// at t = 0, and the shift of the image.
+    pub points: Address,
+    /// [`WallPose`] of each wall, in each step of the launch.
+    pub poses: Address,
+    /// [`DeviceKind`] of each kind of contact.
+    pub kinds: Address,
+    /// Numbers of their effects.
+    pub numbers: Address,
+    /// Particles of a tile.
+    pub tile: u32,
+    /// Number of walls.
+    pub walls: u32,
+    /// First slot of each tile.
+    pub tiles: Address,
+    /// [`DeviceFlags`].
+    pub flags: Address,
+    /// What lists are made with.
+    pub lists: ListTables,
+}
+
+impl DeviceTables {
+    /// Rows of a table.
+    ///
+    /// # Safety
+    /// There are so many, and no thread writes to them meanwhile.
+    #[inline(always)]
+    pub unsafe fn table<T>(&self, from: Address, rows: u32) -> &[T] {
+        // SAFETY: by contract.
+        unsafe { slice::from_raw_parts(from.at(0), rows as usize) }
+    }
+
+    /// Whether an earlier step has ended the launch.
+    ///
+    /// # Safety
+    /// Tables are in place.
+    #[inline(always)]
+    pub unsafe fn is_over(&self, step: u32) -> bool {
+        // SAFETY: by contract. Threads of this step may write 1 + step meanwhile, which is no earlier one.
+        let stopped = unsafe { self.flags.at::<u32>(0).read_volatile() };
+        stopped != 0 && stopped <= step
+    }
+
+    /// Notes that a number of a table lies beyond another table, and ends the launch; in step `step` of it.
+    ///
+    /// # Safety
+    /// Tables are in place.
+    #[cold]
+    pub unsafe fn beyond(&self, step: u32) {
+        // SAFETY: by contract.
+        unsafe {
+            self.flag(4, 1);
+            self.flag(0, step + 1);
+        }
+    }
+
+    /// Sets a flag of [`DeviceFlags`] by its place. All threads write the same number.
+    ///
+    /// # Safety
+    /// Tables are in place.
+    #[inline(always)]
+    pub unsafe fn flag(&self, place: usize, value: u32) {
+        // SAFETY: by contract.
+        unsafe { self.flags.at::<u32>(place).write_volatile(value) }
+    }
+
+    /// How wrenches lie in their columns.
+    #[inline(always)]
+    pub fn layout(&self) -> Layout {
+        Layout { rotates: self.rotates != 0, single: false }
+    }
+}

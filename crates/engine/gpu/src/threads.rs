@@ -1,0 +1,281 @@
+//! What one thread of a device does: a contact, or a particle.
+//!
+//! ```text
+//! contact   reads both ends, computes the wrench, keeps it in its slot
+//! particle  adds the wrenches of its contacts in the order in which the processor adds them, and moves
+//! ```
+//!
+//! Both call what the processor calls, so that both give the same bits, in whatever order threads run. A step is one
+//! launch of contacts for each composition of effects, and one of particles. Tables lie in the memory of the device.
+#![expect(unsafe_code, reason = "threads share tables, of which each writes its own rows only")]
+
+use crate::compositions::Ported;
+use crate::tables::{DeviceBlock, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PLANE, SPHERES};
+use core::slice;
+use laws::contact::contact_loop::{act, gather};
+use laws::contact::patch::{ALONE, Bodies, PATCH, Patch};
+use laws::contact::sums::{Sum, WrenchSums, add, add_opposite};
+use laws::contact::touch::{PatchLaw, Touch};
+use laws::contact::wall_point::WallPose;
+use laws::contact::{
+    Batch, MoveInputs, Mover, SlotEnd, StepInputs, Sums, WrenchBuffer, WrenchSlices, WrenchSlicesMut,
+};
+use laws::simd::{BLOCK, Each, FORCE_AND_MOMENT, Row, Row4, TORQUE};
+use primitives::Vec3;
+
+/// Numbers of history that a composition keeps at most.
+const COLUMNS: usize = 8;
+
+/// The contact in a slot, if its effects are `E`, number `composition` of the compositions; in step `step` of a launch.
+///
+/// # Safety
+/// Tables are in place and hold what they say; no other thread has this slot, and none moves particles meanwhile.
+#[inline(always)]
+pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, slot: usize) {
+    const { assert!(E::HISTORY <= COLUMNS) };
+    // SAFETY: by contract; this thread alone writes to the rows of its slot.
+    unsafe {
+        if slot >= t.slot_count as usize || t.is_over(step) {
+            return;
+        }
+        let block: DeviceBlock = *t.contacts.blocks.at(slot / BLOCK);
+        if block.kind >= t.lists.kind_count {
+            return t.beyond(step);
+        }
+        let kind: &DeviceKind = &*t.kinds.at(block.kind as usize);
+        let i: u32 = *t.contacts.i.at(slot);
+        if kind.composition != composition || i >= t.particle_count {
+            return;
+        }
+        let lane = slot % BLOCK;
+        // 64 bits: no sum wraps.
+        if u64::from(block.history) + (E::HISTORY * BLOCK) as u64 > u64::from(t.history_count) {
+            return t.beyond(step);
+        }
+        let layout = t.layout();
+        let rows: &[Row] = t.table(t.particles.rows, t.particle_count + 2);
+        let spins: &[Row4] =
+            t.table(t.particles.spins, if layout.rotates { t.particle_count + 2 } else { 0 });
+        let mut patch = [1.0; PATCH * BLOCK];
+        if kind.patch > 0 {
+            let numbers = share::<true>(t, step, kind, (block.kind, i), slot);
+            numbers.iter().enumerate().for_each(|(c, number)| patch[c * BLOCK] = *number);
+        }
+        let (other, number) = (*t.contacts.partner.at(slot), block.point as usize + lane);
+        let Some((row, spin)) = partner(t, step, kind, &rows[i as usize], other, number) else {
+            return t.beyond(step);
+        };
+        let MoveInputs { dt, ahead, .. } = t.drive;
+        let inputs = StepInputs { dt, ahead, overlap_limit: t.overlap_limit, rows, spins, layout };
+        let (mut history, mut active) = ([0.0; COLUMNS * BLOCK], [false]);
+        let (mut forces, mut torques) = ([0.0; FORCE_AND_MOMENT], [0.0; TORQUE]);
+        let torques_of = if E::TORQUES { &mut torques[..] } else { &mut [] };
+        let mut batch = Batch {
+            partners: (slice::from_ref(&row), slice::from_ref(&spin)),
+            i: slice::from_ref(&i),
+            j: &[0],
+            history: &mut [],
+            active: &mut active,
+            sums: Sums::default(),
+            both: false,
+            kept: WrenchSlicesMut::default(),
+            patch: if kind.patch > 0 { &patch } else { &[] },
+            each: WrenchSlicesMut { forces: &mut forces, torques: torques_of },
+            ledger: &mut [],
+        };
+        let acted = &mut *t.acts.at::<u8>(slot);
+        let ends = gather::<f64, E>(&inputs, &batch, 0);
+        if *acted == 0 && !ends.may_act(&inputs) {
+            return;
+        }
+        let words = t.contacts.history.at::<f64>(block.history as usize + lane);
+        for c in 0..E::HISTORY {
+            history[c * BLOCK] = *words.wrapping_add(c * BLOCK);
+        }
+        batch.history = &mut history[..E::HISTORY * BLOCK];
+        let mut numbers: &[f64] = t.table(t.numbers, kind.numbers + E::COUNT as u32);
+        numbers = &numbers[kind.numbers as usize..];
+        let effect = E::take(&mut numbers);
+        let mut buffer = WrenchBuffer::<f64>::new();
+        let (acts, deep) = act::<f64, E, f64, false>(&effect, &inputs, &mut batch, &mut buffer, (0, 0), ends);
+        for c in 0..E::HISTORY {
+            *words.wrapping_add(c * BLOCK) = history[c * BLOCK];
+        }
+        *acted = u8::from(acts);
+        if acts {
+            if layout.rotates {
+                *t.forces.at(slot) = Row(forces);
+            } else {
+                let [x, y, z, pad, ..] = forces;
+                *t.forces.at(slot) = Row4([x, y, z, pad]);
+            }
+            if t.torques != 0 {
+                *t.moments.at(slot) = Row4(torques);
+            }
+        }
+        if deep {
+            t.flag(3, 1);
+            t.flag(0, step + 1);
+        }
+    }
+}
+
+/// What part the contact in a slot, of particle `i` and a kind of this number, has in its patch of wall spheres. Not inlined, so that one copy serves all compositions; generic, or that copy would stay in the library.
+///
+/// # Safety
+/// Tables are in place.
+#[inline(never)]
+unsafe fn share<const COPY: bool>(
+    t: &DeviceTables,
+    step: u32,
+    kind: &DeviceKind,
+    (number, i): (u32, u32),
+    slot: usize,
+) -> [f64; PATCH] {
+    // SAFETY: by contract.
+    unsafe {
+        let block = |slot: usize| *t.contacts.blocks.at::<DeviceBlock>(slot / BLOCK);
+        let same = |slot: usize| *t.contacts.i.at::<u32>(slot) == i && block(slot).kind == number;
+        let (mut from, mut to) = (slot, slot + 1);
+        while from > 0 && same(from - 1) {
+            from -= 1;
+        }
+        while to < t.slot_count as usize && same(to) {
+            to += 1;
+        }
+        let row: Row = *t.particles.rows.at(i as usize);
+        let law = PatchLaw { shared: true, hertz: kind.patch > 1, gap: 0.0 };
+        let touch = |k: usize| {
+            let at = from + k;
+            let point = block(at).point as usize + at % BLOCK;
+            let other = partner(t, step, kind, &row, *t.contacts.partner.at(at), point);
+            // The contact itself says that it is beyond.
+            let other = other.map_or(row, |(other, _)| other);
+            Touch::of(law, [t.drive.dt, t.drive.ahead], &row, &other, 0.0)
+        };
+        let Some(patch) = Patch::of(law, to - from, touch) else { return ALONE };
+        let bodies = Bodies { inverse_mass: row[7], direction: Vec3::zeros(), wall: 0.0 };
+        let push = patch.push(&bodies, |k| patch.shares(k)[0]);
+        patch.numbers(slot - from, &push, &bodies, patch.shares(slot - from))
+    }
+}
+
+/// Row and spin of the partner of a particle in `row`; `number`: of its point, where it is no particle. None where a table has no such row.
+///
+/// # Safety
+/// Tables are in place.
+#[inline(always)]
+unsafe fn partner(
+    t: &DeviceTables,
+    step: u32,
+    kind: &DeviceKind,
+    row: &Row,
+    other: u32,
+    number: usize,
+) -> Option<(Row, Row4)> {
+    let has_point = number < t.point_count as usize;
+    // SAFETY: by contract, and the numbers of rows are below those of their tables.
+    unsafe {
+        if kind.with == SPHERES {
+            return has_point.then(|| (*t.points.at(number), Row4::default()));
+        }
+        if kind.with == PLANE || kind.with == MOVED_SPHERES {
+            if !has_point || kind.wall >= t.walls {
+                return None;
+            }
+            let wall: &WallPose = &*t.poses.at((step * t.walls + kind.wall) as usize);
+            let [x, y, z, radius, by_x, by_y, by_z, _] = **t.points.at::<Row>(number);
+            let (home, shift) = (Vec3::new(x, y, z), Vec3::new(by_x, by_y, by_z));
+            let centre = row.position();
+            let position = if kind.with == PLANE {
+                wall.on_plane(kind.plane.map(Vec3::from), centre - shift)
+            } else {
+                wall.pose.position(&home)
+            };
+            return Some(wall.row(position, radius, shift, centre));
+        }
+        if other >= t.particle_count || kind.with == IMAGES && !has_point {
+            return None;
+        }
+        let mut row: Row = *t.particles.rows.at(other as usize);
+        if kind.with == IMAGES {
+            let shift: &Row = &*t.points.at(number);
+            for a in 0..3 {
+                row[a] += shift[4 + a];
+            }
+        }
+        Some((row, if t.rotates != 0 { *t.particles.spins.at(other as usize) } else { Row4::default() }))
+    }
+}
+
+/// Sums the wrenches on a particle, and moves it; in step `step` of a launch.
+///
+/// # Safety
+/// Tables are in place and hold what they say; no other thread has this particle, and none computes contacts meanwhile.
+#[inline(always)]
+pub unsafe fn particle<const ROTATES: bool>(t: &DeviceTables, step: u32, k: usize) {
+    // SAFETY: by contract; this thread alone writes to the rows of its particle.
+    unsafe {
+        if k >= t.particle_count as usize || t.is_over(step) {
+            return;
+        }
+        let (from, to): (u32, u32) = (*t.contacts.starts.at(k), *t.contacts.starts.at(k + 1));
+        let (mut forces, mut torques) = ([0.0; FORCE_AND_MOMENT], [0.0; TORQUE]);
+        // Those of its own tile first, then those that arrive from elsewhere, as in `Sums`.
+        let own: u32 = *t.tiles.at(k / t.tile as usize);
+        let mut arrivals = 0;
+        while from + arrivals < to
+            && (*t.contacts.entries.at::<SlotEnd>((from + arrivals) as usize)).slot() < own as usize
+        {
+            arrivals += 1;
+        }
+        for entry in (from + arrivals..to).chain(from..from + arrivals) {
+            let end: SlotEnd = *t.contacts.entries.at(entry as usize);
+            let slot = end.slot();
+            if slot >= t.slot_count as usize {
+                return t.beyond(step);
+            }
+            if *t.acts.at::<u8>(slot) == 0 {
+                continue;
+            }
+            // Copied whole: a device reads rows in wide words.
+            if ROTATES {
+                let row: Row = *t.forces.at(slot);
+                accumulate(&mut forces, &row, end);
+            } else {
+                let row: Row4 = *t.forces.at(slot);
+                accumulate(&mut forces, &row, end);
+            }
+            if t.torques != 0 {
+                let row: Row4 = *t.moments.at(slot);
+                accumulate(&mut torques, &row, end);
+            }
+        }
+        let row: &mut Row = &mut *t.particles.rows.at(k);
+        let sums = WrenchSlices { forces: &forces, torques: if t.torques != 0 { &torques } else { &[] } };
+        let sums = WrenchSums { first: 0, layout: t.layout(), sums };
+        let sum: Sum<Each> = sums.sum::<f64, Each, ROTATES>(0, row[3]);
+        let mover = Mover::<Each>::new(&t.drive);
+        let found = mover.advance(row, &mut *t.particles.acceleration.at(k), &*t.particles.home.at(k), &sum);
+        if ROTATES {
+            mover.turn(
+                row,
+                &mut *t.particles.spins.at(k),
+                &mut *t.particles.angular_acceleration.at(k),
+                &sum,
+            );
+        }
+        for (place, found) in [(1, found.left_margin), (2, found.too_fast)] {
+            if found {
+                t.flag(place, 1);
+                t.flag(0, step + 1);
+            }
+        }
+    }
+}
+
+/// Adds a row of `N` numbers, as the first or the second particle of its contact takes it.
+#[inline(always)]
+fn accumulate<const N: usize>(sum: &mut [f64], row: &[f64; N], end: SlotEnd) {
+    if end.is_second() { add_opposite::<f64, N>(sum, 0, row) } else { add::<f64, N>(sum, 0, row) }
+}
