@@ -5,17 +5,20 @@
 //! ```no_run
 //! #[derive(clap::Parser)]
 //! struct Args {
+//!     /// File to copy, - for stdin
+//!     #[arg(value_name = "FILE", default_value = "-")]
+//!     input: cli::Source,
 //!     #[command(flatten)]
-//!     input: cli::Input,
-//!     #[command(flatten)]
-//!     output: cli::CloudOutput,
+//!     output: cli::Output,
 //! }
 //!
 //! fn main() -> std::process::ExitCode {
-//!     cli::run("cloud-copy", |args: Args| {
-//!         let cloud = args.input.read_cloud()?;
-//!         args.output.write_cloud(&cloud)?;
-//!         Ok(cli::Report::new(format!("{} points", cloud.points.len())).with("points", cloud.points.len()))
+//!     cli::run("copy", |args: Args| {
+//!         let bytes = args.input.read_all()?;
+//!         let mut out = args.output.open()?;
+//!         std::io::Write::write_all(&mut out, &bytes)?;
+//!         out.commit()?;
+//!         Ok(cli::Report::new(format!("{} bytes", bytes.len())).with("bytes", bytes.len()))
 //!     })
 //! }
 //! ```
@@ -38,14 +41,13 @@ mod signals;
 mod stderr;
 mod stdout;
 mod target;
-mod text_columns;
 mod time;
 
 pub use clash::also_reads;
 pub use exit::{Stopped, Usage, stopped_by_signal, usage};
-pub use input::{Input, Lengths, Source};
+pub use input::{Lengths, Source};
 pub use length::length;
-pub use output::{CloudOutput, Output, OutputStream};
+pub use output::{Output, OutputStream};
 pub use part::{Keep, NotRenamed, is_part, is_written, parts_of};
 pub use placing::{Placing, read_mesh};
 pub use progress::Progress;
@@ -53,5 +55,4 @@ pub use report::Report;
 pub use run::{Common, Seed, arguments, provenance, quiet, run, warn};
 pub use signals::{stop_in_order, stop_requested};
 pub use stderr::{escaped, say};
-pub use text_columns::Columns;
 pub use time::{seconds, span};

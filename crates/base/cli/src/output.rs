@@ -12,7 +12,7 @@ use std::{
     io::{self, BufWriter, IsTerminal, Seek, SeekFrom, Write},
     path::{Path, PathBuf},
 };
-use stream::{mcap, ply::Encoding};
+use stream::mcap;
 
 /// Enough that a pipe is filled by one write.
 const BUFFER: usize = 1 << 18;
@@ -35,17 +35,6 @@ pub struct Output {
     /// Write to FILE instead of stdout; FILE appears when it is complete
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
     pub file: Option<PathBuf>,
-}
-
-/// Where a tool writes a cloud: flatten it into the arguments of a tool that writes PLY.
-#[derive(Debug, Clone, Default, clap::Args)]
-pub struct CloudOutput {
-    /// File or stdout.
-    #[command(flatten)]
-    pub to: Output,
-    /// Write PLY as text
-    #[arg(long)]
-    pub ascii: bool,
 }
 
 impl Output {
@@ -109,33 +98,6 @@ impl Output {
         let (provenance, how) = (crate::provenance(inputs), out.how());
         mcap::Writer::compressed(out, &provenance, how)
             .with_context(|| format!("{}: cannot write", self.name()))
-    }
-}
-
-impl CloudOutput {
-    /// Writes a cloud as PLY and commits it.
-    ///
-    /// # Errors
-    /// As [`Output::open`]; a write that fails.
-    pub fn write_cloud(&self, cloud: &cloud::Cloud) -> anyhow::Result<()> {
-        let encoding = if self.ascii { Encoding::Ascii } else { Encoding::BinaryLittleEndian };
-        let mut out = if self.ascii { self.to.open_text()? } else { self.to.open()? };
-        cloud::write_ply(&mut out, cloud, encoding)
-            .with_context(|| format!("{}: cannot write", self.to.name()))?;
-        out.commit()
-    }
-
-    /// Opens a stream for something else than PLY.
-    ///
-    /// # Errors
-    /// As [`Output::open`]; `--ascii`, which only PLY has.
-    pub fn open_binary(&self, what: &str) -> anyhow::Result<OutputStream> {
-        if self.ascii {
-            return Err(usage(format!(
-                "--ascii: {what} has no text form: leave --ascii out, or write PLY with -o FILE.ply"
-            )));
-        }
-        self.to.open()
     }
 }
 

@@ -2,7 +2,6 @@
 
 use crate::exit::usage;
 use crate::input::Lengths;
-use cloud::Cloud;
 use geom::Transform;
 use geom::mesh::TriMesh;
 use mesh::MeshFileError;
@@ -66,17 +65,6 @@ impl Placing {
         self.transform().and_then(Transform::factor).is_some()
     }
 
-    /// Moves a cloud, and warns of what does not turn with it.
-    pub fn cloud(&self, cloud: &mut Cloud, name: &str) {
-        let Some(by) = self.transform() else { return };
-        self.warn_of_digits(&cloud.points, name);
-        for column in cloud.transform(by) {
-            crate::warn(&format!(
-                "{name}: the columns '{column}' and those of y and z stay as they are: if they are a direction, name them nx, ny, nz, and they turn"
-            ));
-        }
-    }
-
     /// Moves a mesh.
     fn mesh(&self, mesh: &mut TriMesh, name: &str) {
         let Some(by) = self.transform() else { return };
@@ -84,8 +72,8 @@ impl Placing {
         mesh.transform(by);
     }
 
-    /// Warns if the digits of the matrix are too few for coordinates so large.
-    fn warn_of_digits(&self, points: &[geom::Vec3], name: &str) {
+    /// Warns if the digits of the matrix are too few for coordinates as large as those of `points` [m].
+    pub fn warn_of_digits(&self, points: &[geom::Vec3], name: &str) {
         let rounding = self.transform().map_or(0.0, Transform::rounding);
         let far = points
             .iter()

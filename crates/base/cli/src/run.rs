@@ -123,9 +123,7 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
         if panic.location().is_some_and(|at| at.file().ends_with("stack_overflow.rs")) {
             memory::end(0);
         }
-        if !cloud::formats::panics_become_errors() {
-            print(panic);
-        }
+        print(panic);
     }));
     if describe::is_asked() {
         let written = writeln!(std::io::stdout(), "{}", describe::text(&command::<A>(name)));

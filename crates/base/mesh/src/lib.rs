@@ -17,7 +17,9 @@ mod triangles;
 
 pub use ply::{axes as ply_axes, write_ply};
 
+use geom::Shape;
 use geom::mesh::{MeshError, TriMesh};
+use geom::shape::ShapeError;
 use std::path::{Path, PathBuf};
 use stream::ply::PlyError;
 use thiserror::Error;
@@ -162,6 +164,14 @@ pub fn load(file: &str) -> Result<TriMesh, String> {
         let cause = std::error::Error::source(&e).map(|c| format!(": {c}")).unwrap_or_default();
         format!("{file}: {e}{cause}")
     })
+}
+
+/// Reads a SHAPE of the command line, `mesh:FILE` included.
+///
+/// # Errors
+/// As [`Shape::parse`].
+pub fn shape(text: &str) -> Result<Shape, ShapeError> {
+    Shape::parse(text, &load)
 }
 
 /// Files that shapes name, relative to a folder.

@@ -50,4 +50,3 @@ pub use fill::fill;
 pub use formats::{ReadError, TextColumns, from_bytes, read, read_mesh, write_mesh, write_ply};
 pub use merge::merge;
 pub use points::{Cloud, TooFar};
-pub use regions::shape;

@@ -106,14 +106,6 @@ pub fn add_regions(rules: &mut Rules, text: &str, folder: &Path) -> Result<usize
     Ok(file.region.len())
 }
 
-/// Reads a SHAPE of the command line, `mesh:FILE` included.
-///
-/// # Errors
-/// As [`Shape::parse`].
-pub fn shape(text: &str) -> Result<Shape, ShapeError> {
-    Shape::parse(text, &mesh::load)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

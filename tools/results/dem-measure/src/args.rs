@@ -281,7 +281,7 @@ impl Args {
 fn shape(text: &str) -> Result<GivenShape, String> {
     // Everything is above a plane that is far enough below.
     let wanted = if text == "all" { "halfspace:0,0,-1e100,0,0,1" } else { text };
-    let shape = cloud::shape(wanted).map_err(|e| e.to_string())?;
+    let shape = mesh::shape(wanted).map_err(|e| e.to_string())?;
     Ok(GivenShape { text: text.to_owned(), shape })
 }
 

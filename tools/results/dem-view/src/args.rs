@@ -28,7 +28,7 @@ pub struct Args {
     #[command(flatten)]
     pub lengths: cli::Lengths,
     #[command(flatten)]
-    pub columns: cli::Columns,
+    pub columns: cloud_cli::Columns,
     #[command(flatten)]
     pub placing: cli::Placing,
     /// Write to FILE instead of HTML to stdout; FILE appears when it is complete. Endings: .html, .png, .gif, .mp4 (needs ffmpeg), .vtp

@@ -147,7 +147,7 @@ fn cloud(from: impl Read, name: &str, args: &Args, show: &mut impl Show) -> anyh
     if factor != 1.0 {
         cloud.scale(factor);
     }
-    args.placing.cloud(&mut cloud, name);
+    cloud_cli::place(&mut cloud, &args.placing, name);
     if dropped > 0 {
         let dropped = geom::counted(dropped, "point");
         cli::warn(&format!("{name}: the picture leaves out {dropped} without finite coordinates"));

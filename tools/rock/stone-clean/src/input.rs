@@ -41,7 +41,7 @@ pub fn read(bytes: &[u8], args: &Args) -> anyhow::Result<Read> {
         cloud = cloud.select(&places);
     }
     cloud.scale(factor);
-    args.placing.cloud(&mut cloud, "the cloud");
+    cloud_cli::place(&mut cloud, &args.placing, "the cloud");
     let column = |name| cloud.attributes.get(name);
     let normals = match (column("nx"), column("ny"), column("nz")) {
         (Some(x), Some(y), Some(z)) => {

@@ -25,7 +25,7 @@ pub struct Args {
     #[command(flatten)]
     lengths: cli::Lengths,
     #[command(flatten)]
-    columns: cli::Columns,
+    columns: cloud_cli::Columns,
     #[command(flatten)]
     placing: cli::Placing,
     /// Faces of the result, at most [default: as many as come]

@@ -15,9 +15,9 @@ const EXAMPLES: &str = "Examples:\n\
 #[command(group = clap::ArgGroup::new("amount").required(true).args(["spacing", "count", "density"]))]
 pub struct Args {
     #[command(flatten)]
-    pub input: cli::Input,
+    pub input: cloud_cli::Input,
     #[command(flatten)]
-    pub output: cli::CloudOutput,
+    pub output: cloud_cli::CloudOutput,
     /// Least distance between kept points (grid: distance between its nodes) [m]
     #[arg(long, value_name = "M", value_parser = cli::length)]
     spacing: Option<f64>,

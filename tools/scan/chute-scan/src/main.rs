@@ -29,7 +29,7 @@ struct Args {
     #[command(flatten)]
     seed: cli::Seed,
     #[command(flatten)]
-    output: cli::CloudOutput,
+    output: cloud_cli::CloudOutput,
 }
 
 fn main() -> ExitCode {

@@ -34,17 +34,17 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
 #[command(after_help = SHAPES)]
 struct Args {
     #[command(flatten)]
-    input: cli::Input,
+    input: cloud_cli::Input,
     /// Further clouds in the same coordinate system; the property `scan` then says which cloud a point is of
     #[arg(value_name = "CLOUD")]
     further: Vec<cli::Source>,
     #[command(flatten)]
-    output: cli::CloudOutput,
+    output: cloud_cli::CloudOutput,
     /// Keep the points inside SHAPE (repeat: inside any of the shapes)
-    #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
+    #[arg(long, value_name = "SHAPE", value_parser = mesh::shape)]
     keep: Vec<Shape>,
     /// Remove the points inside SHAPE
-    #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
+    #[arg(long, value_name = "SHAPE", value_parser = mesh::shape)]
     remove: Vec<Shape>,
     /// Named regions to keep and to remove (docs/files.md)
     #[arg(long, value_name = "FILE.toml")]
@@ -83,7 +83,7 @@ struct Args {
     #[arg(long, value_name = "RADIUS", value_parser = positive)]
     largest: Option<f64>,
     /// Keep points inside SHAPE that the rules behind the outer shape, or marks, remove (repeat)
-    #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
+    #[arg(long, value_name = "SHAPE", value_parser = mesh::shape)]
     restore: Vec<Shape>,
     /// Keep all points with finite coordinates, and write into the property `removed` why each would go: for dem-view --pick
     #[arg(long)]
@@ -114,7 +114,8 @@ fn crop(args: Args) -> anyhow::Result<Report> {
 /// All clouds as one.
 fn merged(args: &Args) -> anyhow::Result<cloud::Cloud> {
     cli::Source::one_stdin(std::iter::once(&args.input.cloud).chain(&args.further))?;
-    let further = args.further.iter().map(|cloud| cli::Input { cloud: cloud.clone(), ..args.input.clone() });
+    let further =
+        args.further.iter().map(|cloud| cloud_cli::Input { cloud: cloud.clone(), ..args.input.clone() });
     let inputs = std::iter::once(args.input.clone()).chain(further);
     let clouds = inputs.map(|input| input.read_among()).collect::<anyhow::Result<Vec<_>>>()?;
     let (clouds, named): (Vec<_>, Vec<bool>) = clouds.into_iter().unzip();
@@ -198,7 +199,7 @@ fn rules(args: &Args) -> anyhow::Result<Rules> {
 }
 
 fn outer_shape(text: &str) -> Result<Shape, String> {
-    match cloud::shape(text) {
+    match mesh::shape(text) {
         Ok(shape) if shape.outside => {
             Err("an outer shape encloses the equipment: remove the ! before it".to_owned())
         }

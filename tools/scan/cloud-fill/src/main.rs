@@ -26,9 +26,9 @@ const ABOUT: &str = "A hole is a region inside the outline of the surface with a
 #[command(after_help = ABOUT)]
 struct Args {
     #[command(flatten)]
-    input: cli::Input,
+    input: cloud_cli::Input,
     #[command(flatten)]
-    output: cli::CloudOutput,
+    output: cloud_cli::CloudOutput,
     /// Smallest distance between added points [m] (default: as dense as the surroundings)
     #[arg(long, value_name = "M", value_parser = cli::length)]
     spacing: Option<f64>,
@@ -39,7 +39,7 @@ struct Args {
     #[arg(long, value_name = "DENSITY", value_parser = positive)]
     below: Option<f64>,
     /// Fill only inside SHAPE, also where it crosses the rim (repeat for more)
-    #[arg(long, value_name = "SHAPE", value_parser = cloud::shape)]
+    #[arg(long, value_name = "SHAPE", value_parser = mesh::shape)]
     region: Vec<Shape>,
     /// Where a scanner stood [m] (repeat for more): space that it looked through stays open
     #[arg(long, value_name = "x,y,z", value_parser = cloud::seen::viewpoint, allow_hyphen_values = true)]

@@ -7,7 +7,7 @@ const CHUTE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../sample-data/c
 /// Runs the tool on the chute without its mounting end.
 fn fill(args: &[&str]) -> Output {
     let whole = cloud::from_bytes(std::fs::read(CHUTE).unwrap()).unwrap();
-    let mounting = cloud::shape("halfspace:0,0,0,-0.766,0,0.643").unwrap();
+    let mounting = mesh::shape("halfspace:0,0,0,-0.766,0,0.643").unwrap();
     let rules = cloud::crop::Rules { remove: vec![mounting], ..Default::default() };
     let mut file = tempfile::NamedTempFile::new().unwrap();
     cloud::write_ply(&mut file, &cloud::crop(&whole, &rules).unwrap().0, Default::default()).unwrap();

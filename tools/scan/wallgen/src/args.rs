@@ -19,9 +19,9 @@ const EXAMPLES: &str = "Examples:\n\
 #[command(allow_negative_numbers = true)]
 pub struct Args {
     #[command(flatten)]
-    pub input: cli::Input,
+    pub input: cloud_cli::Input,
     #[command(flatten)]
-    pub output: cli::CloudOutput,
+    pub output: cloud_cli::CloudOutput,
     /// Depth of the dents between neighbouring spheres [m], or a file of regions and wear (docs/wall-input.md)
     #[arg(long, value_name = "M|FILE.toml", allow_hyphen_values = true)]
     roughness: Option<String>,

@@ -1,10 +1,12 @@
 //! The tool under test: its first argument says how it ends.
 
-use cli::{CloudOutput, Input, Report, Seed, Stopped};
+use anyhow::Context;
+use cli::{Output, Report, Seed, Source, Stopped};
 use std::{
     io::{Read, Write},
     process::ExitCode,
 };
+use stream::ply::Encoding;
 
 /// Environment variable that turns the test program into this tool.
 pub const SWITCH: &str = "GRAINPIPE_CLI_TEST_TOOL";
@@ -13,10 +15,10 @@ pub const SWITCH: &str = "GRAINPIPE_CLI_TEST_TOOL";
 #[derive(clap::Parser)]
 struct Args {
     action: String,
+    #[arg(default_value = "-")]
+    input: Source,
     #[command(flatten)]
-    input: Input,
-    #[command(flatten)]
-    output: CloudOutput,
+    output: Output,
     #[command(flatten)]
     seed: Seed,
 }
@@ -29,13 +31,13 @@ pub fn main() -> ExitCode {
             "arguments" => println!("{:?}", cli::arguments()),
             "usage" => return Err(cli::usage("--spacing: 0 m: give more")),
             "flood" => {
-                let mut out = args.output.to.open()?;
+                let mut out = args.output.open()?;
                 loop {
                     out.write_all(&[7; 4096])?;
                 }
             }
             action => {
-                let mut out = args.output.to.open()?;
+                let mut out = args.output.open()?;
                 out.write_all(&[7; 1_000_000])?;
                 end(action)?;
                 out.commit()?;
@@ -73,10 +75,14 @@ fn end(action: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Copies a PLY file.
 fn copy(args: &Args) -> anyhow::Result<Report> {
-    let cloud = args.input.read_cloud()?;
-    args.output.write_cloud(&cloud)?;
-    Ok(Report::new(format!("{} points", cloud.points.len()))
-        .with("points", cloud.points.len())
+    let ply = stream::ply::read(&mut args.input.open()?).with_context(|| args.input.to_string())?;
+    let points = ply.elements.first().map_or(0, |vertices| vertices.table.rows());
+    let mut out = args.output.open()?;
+    stream::ply::write(&mut out, &ply, Encoding::BinaryLittleEndian)?;
+    out.commit()?;
+    Ok(Report::new(format!("{points} points"))
+        .with("points", points)
         .with("threads", rayon::current_num_threads()))
 }

@@ -3,7 +3,7 @@
 use super::e57_color::ColorScale;
 use super::e57_extra::Extra;
 use super::e57_point::Fields;
-use super::{ReadError, catch, e57_claims as claims, e57_xml, narrowed};
+use super::{ReadError, e57_claims as claims, e57_xml, foreign, narrowed};
 use crate::Cloud;
 use e57::{E57Reader, PointCloud, RawValues};
 use geom::Vec3;
@@ -15,7 +15,7 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
-    catch("E57", move || decode(bytes))
+    foreign::guarded("E57", move || decode(bytes))
 }
 
 fn broken(what: impl ToString, point: u64) -> ReadError {

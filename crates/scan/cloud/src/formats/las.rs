@@ -4,7 +4,7 @@ use super::las_crs::{projected, reference_system};
 use super::las_extra::{self, ExtraColumn};
 use super::las_units;
 use super::laz::{self, Bytes, Chunk, STACK, Shallow};
-use super::{ReadError, catch};
+use super::{ReadError, foreign};
 use crate::Cloud;
 use crate::points::SYSTEM;
 use geom::{Shown, Vec3};
@@ -30,14 +30,16 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
-    catch("LAS/LAZ", move || decode(bytes))
+    // Asked of this thread: another one may be in another pool.
+    let threads = if (bytes.len() as u64) < SMALL { 1 } else { rayon::current_num_threads().max(1) };
+    foreign::guarded("LAS/LAZ", move || decode(bytes, threads))
 }
 
 fn broken(what: impl ToString, point: u64) -> ReadError {
     ReadError::Broken { format: "LAS/LAZ", what: what.to_string(), point: Some(point) }
 }
 
-fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
+fn decode(bytes: Vec<u8>, threads: usize) -> Result<Cloud, ReadError> {
     laz::before_the_header(&bytes).map_err(|e| broken(e, 0))?;
     let header = Header::new(Cursor::new(&bytes)).map_err(|e| broken(e, 0))?;
     sound(&header).and_then(|()| projected(&header)).map_err(|e| broken(e, 0))?;
@@ -64,7 +66,6 @@ fn decode(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
             ));
         }
     }
-    let threads = if length < SMALL { 1 } else { rayon::current_num_threads().max(1) };
     let (extra, unknown) = las_extra::columns(&header);
     let file = File { bytes: Bytes(Arc::new(bytes)), promised, size, extra };
     let all = match file.read(&shares(&chunks, promised, threads as u64))? {
@@ -144,11 +145,7 @@ impl File {
             .map(|(start, to)| PointRange { file: self, from: start.first, to, at_once })
             .collect();
         let read: Vec<_> = std::thread::scope(|scope| {
-            let spawn = |part| {
-                std::thread::Builder::new()
-                    .stack_size(STACK)
-                    .spawn_scoped(scope, move || PointRange::read(part))
-            };
+            let spawn = |part| foreign::spawn(scope, STACK, move || PointRange::read(part));
             let running: Vec<_> = parts.iter().map(spawn).collect();
             running.into_iter().map(|thread| thread.map(ScopedJoinHandle::join)).collect()
         });
@@ -315,6 +312,6 @@ mod tests {
         assert!(file.read(&starts).unwrap().is_none(), "data from wrong offsets is refused");
         let mut large = swapped;
         large.resize(large.len().max(SMALL as usize), 0);
-        assert!(decode(large).unwrap().points == whole);
+        assert!(decode(large, 3).unwrap().points == whole);
     }
 }

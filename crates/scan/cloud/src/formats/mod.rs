@@ -10,6 +10,7 @@ mod e57_extra;
 mod e57_point;
 mod e57_xml;
 mod epsg_units;
+mod foreign;
 mod las;
 mod las_crs;
 mod las_extra;
@@ -28,7 +29,6 @@ pub use text_names::TextColumns;
 
 use crate::Cloud;
 use std::io::Read;
-use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
 use stream::Values;
 use stream::ply::PlyError;
 use stream::table::TableError;
@@ -259,28 +259,6 @@ fn hint(bytes: &[u8]) -> &'static str {
         [0x89, b'M', b'C', b'A', b'P', ..] => " (MCAP: walls or a run, not a cloud)",
         _ => "",
     }
-}
-
-/// Readers of other crates that run now.
-static FOREIGN: AtomicUsize = AtomicUsize::new(0);
-
-/// Whether a panic now most likely comes from a reader of another crate; it becomes an error and is not printed.
-pub fn panics_become_errors() -> bool {
-    FOREIGN.load(SeqCst) > 0
-}
-
-/// Runs a reader of another crate; a panic in it, also in a thread that it started, becomes an error.
-fn catch(
-    format: &'static str,
-    read: impl FnOnce() -> Result<Cloud, ReadError> + std::panic::UnwindSafe,
-) -> Result<Cloud, ReadError> {
-    FOREIGN.fetch_add(1, SeqCst);
-    let outcome = std::panic::catch_unwind(read);
-    FOREIGN.fetch_sub(1, SeqCst);
-    outcome.unwrap_or_else(|_| {
-        let what = "the file is broken in a way its reader could not name: export it again".to_owned();
-        Err(ReadError::Broken { format, what, point: None })
-    })
 }
 
 /// Colours in the smallest type that holds them all.

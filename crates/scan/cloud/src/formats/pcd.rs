@@ -1,6 +1,6 @@
 //! PCD 0.7 (text, binary, compressed), by the `pcd-rs` crate.
 
-use super::{ReadError, catch};
+use super::{ReadError, foreign};
 use crate::Cloud;
 use geom::Vec3;
 use pcd_rs::{DynReader, Field, ValueKind, metas::FieldDef};
@@ -15,7 +15,7 @@ pub(super) fn matches(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
-    catch("PCD", move || decode(&bytes))
+    foreign::guarded("PCD", move || decode(&bytes))
 }
 
 fn broken(what: impl ToString, point: Option<u64>) -> ReadError {

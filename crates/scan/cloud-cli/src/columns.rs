@@ -1,6 +1,6 @@
 //! Names of the columns of a text cloud: `--columns`.
 
-use crate::exit::usage;
+use cli::usage;
 use cloud::TextColumns;
 
 /// The names of the columns of a text cloud: flatten it into the arguments of a tool that reads one.
