@@ -12,8 +12,8 @@ use crate::neighbours::poses::{around, pose_listed, shift_into_box};
 use crate::neighbours::rebuild::{margins, wall_margin};
 use crate::space::search::tile;
 use crate::state::State;
-use gpu::lists::tables::DeviceWall;
 use gpu::tables::Address;
+use gpu::tables::lists::DeviceWall;
 use laws::simd::Row4;
 use laws::space::images::Periods;
 

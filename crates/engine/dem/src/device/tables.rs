@@ -4,7 +4,7 @@
 use crate::device::{Device, DeviceError};
 use geom::motion::Pose;
 use geom::{Lattice, Vec3};
-use gpu::lists::tables::{DeviceSegment, DeviceWall, LeastRow};
+use gpu::tables::lists::{DeviceSegment, DeviceWall, LeastRow};
 use gpu::tables::{Address, DeviceBlock, DeviceFlags, DeviceKind};
 use laws::contact::SlotEnd;
 use laws::contact::wall_point::WallPose;

@@ -2,7 +2,7 @@
 
 use crate::device::tables::Table;
 use crate::device::{Device, DeviceError, functions};
-use gpu::lists::tables::SUMMED;
+use gpu::tables::lists::SUMMED;
 use gpu::tables::{Address, DeviceTables};
 
 /// A device, and the tables of its threads.

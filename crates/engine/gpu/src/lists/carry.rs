@@ -1,7 +1,7 @@
 //! Histories, carried over from the lists before: as [`crate::neighbours`] carries them.
 
 use super::run;
-use super::tables::DeviceWall;
+use crate::tables::lists::DeviceWall;
 use crate::tables::{DeviceBlock, DeviceKind, DeviceTables, SPHERES};
 use laws::contact::SlotEnd;
 use laws::simd::BLOCK;

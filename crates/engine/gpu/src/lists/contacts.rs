@@ -1,8 +1,8 @@
 //! Contacts in their slots: blocks, order, those of each particle, and points of walls.
 
 use super::sort::sort;
-use super::tables::{DeviceSegment, DeviceWall};
 use super::{WRITE, add, run};
+use crate::tables::lists::{DeviceSegment, DeviceWall};
 use crate::tables::{DeviceBlock, DeviceKind, DeviceTables, IMAGES, PARTICLES, PLANE, SPHERES};
 use laws::contact::SlotEnd;
 use laws::contact::wall_point::WallPose;

@@ -17,7 +17,6 @@ mod pairs;
 mod particles;
 mod scan;
 mod sort;
-pub mod tables;
 
 pub use carry::*;
 pub use contacts::*;

@@ -1,8 +1,8 @@
 //! What may touch: pairs of particles, of particles and images, and parts of walls near particles. Each function runs twice, to count and to write.
 
 use super::near::Sorted;
-use super::tables::DeviceWall;
 use super::{WRITE, add};
+use crate::tables::lists::DeviceWall;
 use crate::tables::{Address, DeviceKind, DeviceTables, PLANE, SPHERES};
 use laws::simd::{Row, Row4};
 use laws::space::margins::touched;

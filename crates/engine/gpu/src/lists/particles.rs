@@ -1,8 +1,8 @@
 //! Particles: their margins, their box, their cells, and their order.
 
 use super::add;
-use super::tables::{CHUNK, DIGIT, DIGITS, LeastRow, PART};
 use crate::tables::DeviceTables;
+use crate::tables::lists::{CHUNK, DIGIT, DIGITS, LeastRow, PART};
 use laws::simd::{Row, Row4};
 use laws::space::images::Periods;
 use laws::space::sphere::FAR;

@@ -2,8 +2,8 @@
 //!
 //! The sum of each part, then the running sums of these (by the same functions), then those within each part: Blelloch (1990), CMU-CS-90-190.
 
-use super::tables::SUMMED;
 use crate::tables::DeviceTables;
+use crate::tables::lists::SUMMED;
 
 /// Numbers that are read at once: as many as divide a part.
 const AT_ONCE: usize = 8;

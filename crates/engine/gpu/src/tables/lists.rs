@@ -1,6 +1,6 @@
 //! Tables that lists are made with.
 
-use crate::tables::{Address, ContactTables, ParticleTables};
+use super::columns::{Address, ContactTables, ParticleTables};
 use laws::space::cell::Cell;
 use laws::space::images::WallImages;
 use laws::space::margins::MarginInputs;

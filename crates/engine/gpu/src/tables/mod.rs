@@ -1,23 +1,14 @@
 //! Tables in the memory of a device: what its threads ([`crate::threads`]) read and write.
 #![expect(unsafe_code, reason = "a table is an address in the memory of the device")]
 
-use crate::lists::tables::ListTables;
+mod columns;
+pub mod lists;
+
+pub use columns::{Address, ContactTables, ParticleTables};
 use core::slice;
 use laws::contact::MoveInputs;
 use laws::simd::Layout;
-
-/// Where a table begins, in the memory of the device.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-#[repr(transparent)]
-pub struct Address(pub u64);
-
-impl Address {
-    /// Row `k` of a table.
-    #[inline(always)]
-    pub fn at<T>(self, k: usize) -> *mut T {
-        (self.0 as *mut T).wrapping_add(k)
-    }
-}
+use lists::ListTables;
 
 /// A kind of contact, as a device knows it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -82,44 +73,6 @@ pub struct DeviceFlags {
     pub deep: u32,
     /// Whether a number in a table names a row that another does not have: memory is damaged, and the run cannot go on.
     pub beyond: u32,
-}
-
-/// Columns of particles.
-#[derive(Debug, Clone, Copy, Default)]
-#[repr(C)]
-pub struct ParticleTables {
-    /// [`Row`] of each, and two more that nothing touches.
-    pub rows: Address,
-    /// [`Row4`] of each, and two more; none without rotation.
-    pub spins: Address,
-    /// [`Row4`] of each.
-    pub acceleration: Address,
-    /// [`Row4`] of each; none without rotation.
-    pub angular_acceleration: Address,
-    /// [`Row4`] of each: where it was listed, and its margin.
-    pub home: Address,
-    /// Material of each, four bytes.
-    pub material: Address,
-    /// Where each was when all of them were sent.
-    pub place: Address,
-}
-
-/// Columns of contacts, and which of them each particle has.
-#[derive(Debug, Clone, Copy, Default)]
-#[repr(C)]
-pub struct ContactTables {
-    /// First particle of each, a number of four bytes.
-    pub i: Address,
-    /// Second particle, or image and part of a wall.
-    pub partner: Address,
-    /// History, by block and column.
-    pub history: Address,
-    /// [`DeviceBlock`] of each block of slots.
-    pub blocks: Address,
-    /// First contact of each particle, and one more.
-    pub starts: Address,
-    /// Contacts of particles ([`laws::contact::SlotEnd`]) in the order of their slots.
-    pub entries: Address,
 }
 
 /// Tables of a step, and what all threads share.
