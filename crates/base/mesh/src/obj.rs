@@ -3,7 +3,8 @@
 //! Text may have any encoding: names are not read. A `\` at the end of a line continues it on the next one. A vertex is in the mesh if a face has it, in the order of
 //! the faces; a file without faces is its vertices. Wavefront (1995), Advanced Visualizer manual, appendix B1: Object files.
 
-use crate::{Contents, MeshFileError, lines, polygon};
+use crate::contents::lines;
+use crate::{Contents, MeshFileError, polygon};
 use geom::{Vec3, mesh::TriMesh};
 
 /// Lines among which the first vertex stands.

@@ -8,7 +8,8 @@
 //! A file whose length is what its count promises is binary, whatever it begins with. Normals are not read: many programs write none, or wrong ones. Corners at
 //! equal places are one vertex. 3D Systems (1989), Stereolithography Interface Specification.
 
-use crate::{Contents, MeshFileError, lines};
+use crate::contents::lines;
+use crate::{Contents, MeshFileError};
 use geom::{Vec3, mesh::TriMesh};
 use std::collections::HashMap;
 

@@ -1,6 +1,7 @@
 //! Text with one triangle per line: nine numbers, the corners [m]. Benchmarks of particle codes use it for walls.
 
-use crate::{Contents, MeshFileError, lines};
+use crate::contents::lines;
+use crate::{Contents, MeshFileError};
 use geom::{Vec3, mesh::TriMesh};
 
 pub(crate) fn matches(bytes: &[u8]) -> bool {

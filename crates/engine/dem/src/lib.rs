@@ -3,7 +3,7 @@
 //! It knows nothing of files, TOML or the terminal. SI units throughout. Signs: the unit normal n of a contact points from j to i, an overlap
 //! δ > 0 is contact, repulsion is positive. Contact laws and the contact loop are in [`laws`].
 //!
-//! The folders are layers: each uses those above it in this list, and nothing below (`tests/tests/structure.rs` checks it).
+//! The folders are layers: each uses those above it in this list, and nothing below (`tests/tests/structure/` checks it).
 //!
 //! ```text
 //! threads      work shared out

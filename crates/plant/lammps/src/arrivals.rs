@@ -11,7 +11,7 @@
 //! m Δv/Δt in step k and velocities half a step later, x(k+1) = x(k) + (v + Δv) Δt. In step n, the first at or after t_e, it must be at
 //! x(n Δt), and half a step before at v(n Δt) − ½ a Δt; the kick comes in step n − 1. In step 0 a force acts for half a step only: it has no kick.
 
-use crate::data::number_of;
+use crate::arrival::{Arrival, Way};
 use crate::depot::Depot;
 use crate::error::{LammpsError, Result};
 use crate::inflow::Inflow;
@@ -25,64 +25,6 @@ use scene::plan::Insertion;
 
 /// A step that does not come.
 const NEVER: f64 = 1e15;
-
-/// A grain that comes in.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Arrival {
-    /// Its id.
-    pub id: u32,
-    /// When it enters the zone [s].
-    pub enters: f64,
-    /// When it moves freely [s].
-    pub free: f64,
-    /// What moves it until then.
-    way: Way,
-}
-
-/// A change of velocity [m/s] in a step.
-type Kick = (f64, Vec3);
-
-/// What moves the atom of a grain until it is free.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Way {
-    /// Step from which gravity acts on it.
-    falls: f64,
-    leaves: Kick,
-    comes: Kick,
-}
-
-impl Arrival {
-    /// Names of its numbers in LAMMPS.
-    pub const NAMES: &str = "d_free d_falls d_leaves d_lx d_ly d_lz d_comes d_cx d_cy d_cz";
-
-    /// Its numbers, in the order of [`Arrival::NAMES`].
-    pub fn numbers(&self) -> [f64; 10] {
-        let Way { falls, leaves: (k, u), comes: (n, v) } = self.way;
-        [self.free, falls, k, u.x, u.y, u.z, n, v.x, v.y, v.z]
-    }
-
-    /// The force on the atoms of a group `waiting`, as commands; `c_way` has the numbers.
-    pub fn commands(gravity: &Vec3) -> String {
-        let one = |(axis, name): (usize, &str)| {
-            format!(
-                "variable way{name} atom \"mass*((step>=c_way[2])*({:?})+((step==c_way[3])*c_way[{}]+(step==c_way[7])*c_way[{}])/dt)\"\n",
-                gravity[axis],
-                4 + axis,
-                8 + axis
-            )
-        };
-        let forces: String = ["x", "y", "z"].into_iter().enumerate().map(one).collect();
-        format!(
-            "\n# what moves grains that come in: the last force\n{forces}fix way_in waiting setforce v_wayx v_wayy v_wayz\n"
-        )
-    }
-}
-
-/// Whether the grain of an atom is free at a time [s]: all are but those that still come in.
-pub fn is_free(arrivals: &[Arrival], number: u64, time: f64) -> bool {
-    let found = arrivals.binary_search_by_key(&number, |a| number_of(a.id));
-    found.map_or(true, |index| arrivals[index].free <= time)
-}
 
 /// Adds all grains of a plan that come in until the end to its setup, which has the members of clumps, where they are at t = 0; in the order of their ids.
 ///

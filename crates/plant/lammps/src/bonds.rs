@@ -9,10 +9,10 @@
 //! Wang (2009), Acta Geotechnica 4, doi:10.1007/s11440-008-0072-1, is what LAMMPS has. It measures bending and twist by angles, we by sines.
 
 use crate::breaking;
-use crate::data::number_of;
+use crate::error::Refusal;
 use crate::error::Result;
 use crate::law::Target;
-use crate::refusal::Refusal;
+use crate::places::number_of;
 use dem::setup::{Bond, BondKind, BondNumbers, Setup};
 use run::RunError;
 use std::collections::HashMap;

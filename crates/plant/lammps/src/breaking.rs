@@ -10,7 +10,7 @@
 //! both         F_nc, M_bc of σ_c    M_tc of τ_c    F_sc the lower one      each load alone does the same; together LAMMPS breaks it earlier, and under pressure later
 //! ```
 
-use crate::refusal::Refusal;
+use crate::error::Refusal;
 use dem::setup::{Bond, Setup};
 use std::f64::consts::PI;
 

@@ -7,7 +7,7 @@
 //!
 //! m* of a contact has the mass of the whole body on both engines. Members on one line show no turn about it: that is integrated from frame to frame.
 
-use crate::refusal::Refusal;
+use crate::error::Refusal;
 use dem::ClumpState;
 use dem::setup::{Body, ClumpShape, ContactLaw, Particle, Setup};
 use geom::Vec3;
@@ -139,7 +139,7 @@ pub fn write(setup: &Setup, more: &Vec3, out: &mut impl Write) -> io::Result<()>
     writeln!(out, "{}", setup.clumps.placed.len())?;
     for body in &setup.clumps.placed {
         let moments = inertia(setup, body, &body.orientation);
-        let (x, images) = crate::data::wrapped(setup, body.position);
+        let (x, images) = crate::places::wrapped(setup, body.position);
         let (v, momentum) = (body.velocity + more, moments * body.spin);
         write!(out, "{} {:?}", numbers.of(body.id), mass(setup, body))?;
         let tensor = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| moments[at]);
@@ -226,7 +226,7 @@ impl<'a> Tracker<'a> {
                 members: arms.len() as u32,
                 scale: body.scale,
                 mass: *mass,
-                position: crate::data::wrapped(setup, body.position).0,
+                position: crate::places::wrapped(setup, body.position).0,
                 orientation: body.orientation,
                 velocity: body.velocity,
                 spin: body.spin,
@@ -254,7 +254,7 @@ impl Tracked {
 
     /// Takes its state from its members, a time [s] after the last frame.
     fn follow(&mut self, setup: &Setup, members: &[Particle], since: f64) {
-        let apart = |k: usize| crate::loads::nearest(setup, members[k].position - members[0].position);
+        let apart = |k: usize| crate::places::nearest(setup, members[k].position - members[0].position);
         let (spin, (far, second)) = (members[0].spin, self.seen);
         let turn = match second {
             Some(second) => {

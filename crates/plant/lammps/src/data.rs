@@ -1,8 +1,9 @@
 //! The data file: all atoms at t = 0, grains first, then wall spheres.
 
-use crate::arrivals::Arrival;
+use crate::arrival::Arrival;
 use crate::bonds::Bonds;
 use crate::clumps::{self, Numbers};
+use crate::places::{number_of, wrapped};
 use crate::types::{Kind, Types};
 use dem::setup::{Particle, Setup, WallShape};
 use geom::Vec3;
@@ -20,11 +21,6 @@ struct Atom {
     position: Vec3,
     velocity: Vec3,
     spin: Vec3,
-}
-
-/// Number of the atom of a particle: LAMMPS counts from 1.
-pub fn number_of(id: u32) -> u64 {
-    u64::from(id) + 1
 }
 
 /// Largest number of an atom: LAMMPS of most builds holds it in 32 bits.
@@ -156,16 +152,4 @@ fn each(setup: &Setup, types: &Types, mut put: impl FnMut(Atom) -> io::Result<()
         }
     }
     Ok(())
-}
-
-/// A position inside the period, and the periods between both.
-pub fn wrapped(setup: &Setup, mut position: Vec3) -> (Vec3, [i64; 3]) {
-    let mut images = [0; 3];
-    for axis in 0..3 {
-        if let Some((low, high)) = setup.periodic[axis] {
-            images[axis] = ((position[axis] - low) / (high - low)).floor() as i64;
-            position[axis] = low + (position[axis] - low).rem_euclid(high - low);
-        }
-    }
-    (position, images)
 }

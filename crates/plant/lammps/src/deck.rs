@@ -1,17 +1,18 @@
 //! The deck: the input script of a run, readable, and its data file.
 
-use crate::arrivals::Arrival;
+use crate::arrival::Arrival;
 use crate::batch;
 use crate::bonds::Bonds;
 use crate::clumps;
 use crate::data;
+use crate::error::Refusal;
 use crate::error::{LammpsError, Result};
 use crate::files::{BATCH, BODIES, BONDS, DATA, DUMPS, FINISHED, FRAMES, INPUT, OF_BONDS, STATES, TOUCHES};
 use crate::head;
 use crate::law::{Target, coefficients};
 use crate::loads::Asked;
 use crate::outlet;
-use crate::refusal::{Allowed, Refusal};
+use crate::refusal::Allowed;
 use crate::types::{Types, law};
 use crate::wall;
 use dem::setup::Setup;

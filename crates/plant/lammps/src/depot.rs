@@ -1,6 +1,6 @@
 //! Where grains that come in by one inlet wait: a block of places upstream of all atoms, the first of them in front.
 
-use crate::refusal::Refusal;
+use crate::error::Refusal;
 use dem::setup::{Entry, Setup, WallShape, Zone};
 use geom::Vec3;
 

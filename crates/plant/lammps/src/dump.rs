@@ -190,6 +190,24 @@ impl<R: BufRead> Reader<R> {
     }
 }
 
+/// What a dump has of the step of a frame, if there is one.
+///
+/// # Errors
+/// A dump that ends, or is wrong.
+pub fn block(dump: &mut Option<Dump>, step: u64) -> Result<Option<Block>, Ended> {
+    match dump.as_mut().map(Dump::next_block) {
+        None => Ok(None),
+        Some(Ok(block)) if block.step == step => Ok(Some(block)),
+        Some(Ok(block)) => Err(Ended::Wrong(format!(
+            "contacts or bonds of step {} follow the frame of step {step}",
+            block.step
+        ))),
+        // The frame is there, and what belongs to it is not.
+        Some(Err(Ended::Over)) => Err(Ended::Torn),
+        Some(Err(ended)) => Err(ended),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,8 +1,8 @@
 //! What can go wrong with a run on LAMMPS.
 
-use crate::refusal::Refusal;
 use run::RunError;
 use scene::{SceneError, SceneSetupError};
+use std::fmt;
 use thiserror::Error;
 
 /// Why a run on LAMMPS failed.
@@ -41,3 +41,27 @@ pub enum LammpsError {
 
 /// What can fail with LAMMPS.
 pub type Result<T, E = LammpsError> = std::result::Result<T, E>;
+
+/// Something that LAMMPS cannot do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refusal {
+    /// Key or name in the scene.
+    pub what: String,
+    /// Why.
+    pub why: String,
+    /// The nearest that LAMMPS can do, as an instruction.
+    pub nearest: String,
+}
+
+impl Refusal {
+    /// A refusal.
+    pub fn new(what: impl Into<String>, why: impl Into<String>, nearest: impl Into<String>) -> Refusal {
+        Refusal { what: what.into(), why: why.into(), nearest: nearest.into() }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}: {}: {}", self.what, self.why, self.nearest)
+    }
+}

@@ -1,6 +1,6 @@
 //! The head of a deck: units, box, and the atoms, from the data file or from a state.
 
-use crate::arrivals::Arrival;
+use crate::arrival::Arrival;
 use crate::clumps;
 use crate::deck::Source;
 use crate::files::{BODIES, BONDS, DATA, OF_BODIES};

@@ -1,16 +1,17 @@
 //! Frames, and crossings between them, on their way from LAMMPS to the run file.
 
-use crate::arrivals::Arrival;
+use crate::arrival::Arrival;
 use crate::clumps::Tracker;
-use crate::data::number_of;
 use crate::deck::Deck;
 use crate::dump::{Block, Dump, Ended, Parts};
 use crate::error::{LammpsError, Result};
 use crate::files::{DUMPS, FRAMES, OF_BONDS, PAIRS, TOUCHES, ZONE};
 use crate::folder;
+use crate::instant::Now;
 use crate::joined::Joined;
-use crate::loads::{self, Loads, Now};
+use crate::loads::{self, Loads};
 use crate::outlet::{Found, Search};
+use crate::places::number_of;
 use crate::process::{Engine, Place, Running};
 use dem::setup::{Particle, Setup};
 use geom::{Shown, Vec3};

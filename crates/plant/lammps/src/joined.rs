@@ -6,10 +6,10 @@
 //!
 //! A bond that is in one frame and not in the next has broken between them, and counts from the second: what it bore, and its energy, are those of the first.
 
-use crate::data::{number_of, wrapped};
-use crate::dump::{Dump, Ended, Parts};
+use crate::dump::{self, Dump, Ended, Parts};
 use crate::files::OF_BONDS;
-use crate::loads::{self, Now};
+use crate::instant::Now;
+use crate::places::{nearest, number_of, wrapped};
 use dem::setup::BondNumbers;
 use dem::setup::bond::cluster_of;
 use dem::{BondState, BreakMode, Crack, Pull};
@@ -53,7 +53,7 @@ impl<'a> Joined<'a> {
         now: &Now,
         turns: &[UnitQuaternion<f64>],
     ) -> Result<(Vec<BondState>, Vec<Crack>), Ended> {
-        let Some(block) = loads::block(&mut self.dump, now.step)? else { return Ok(Default::default()) };
+        let Some(block) = dump::block(&mut self.dump, now.step)? else { return Ok(Default::default()) };
         let pair = |a: f64, b: f64| [a.min(b) as u64, a.max(b) as u64];
         let whole: HashSet<[u64; 2]> = block.rows().map(|row| pair(row[0], row[1])).collect();
         let (mut all, mut cracks) = (Vec::with_capacity(self.made.len()), Vec::new());
@@ -63,7 +63,7 @@ impl<'a> Joined<'a> {
                 return Err(Ended::Wrong(format!("bonds: a grain of {} and {} is missing", ids[0], ids[1])));
             };
             let ends = [&now.particles[i], &now.particles[j]];
-            let arm = loads::nearest(now.setup, ends[0].position - ends[1].position);
+            let arm = nearest(now.setup, ends[0].position - ends[1].position);
             let middle = wrapped(now.setup, ends[1].position + arm * 0.5).0;
             let bears = || {
                 let velocity = ends[0].velocity - ends[1].velocity;

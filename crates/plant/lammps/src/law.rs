@@ -13,8 +13,8 @@
 //! [`dem::effects`] do. Rolling, twisting and moduli per length depend on sizes, for which LAMMPS has one number per pair of types: [`depends_on_size`].
 
 use crate::damping::tsuji;
+use crate::error::Refusal;
 use crate::grain::Meeting;
-use crate::refusal::Refusal;
 use crate::version::Version;
 use dem::effects::{Elastic, MODULI, damping_ratio, tangential_ratio};
 use dem::setup::ContactLaw;

@@ -11,6 +11,7 @@
 //! Sources: the documentation of LAMMPS (`pair_style granular`, `fix wall/gran`, `fix wall/gran/region`, `fix move`, `dump custom`) and its
 //! source of 29 Sep 2021 and 22 Jul 2025, against which the conversions are tested. Uses `dem` for the setup's types, `run` for the file.
 
+mod arrival;
 mod arrivals;
 mod batch;
 mod bonds;
@@ -27,12 +28,14 @@ mod folder;
 mod grain;
 mod head;
 mod inflow;
+mod instant;
 mod job;
 mod joined;
 mod law;
 mod loads;
 mod motion;
 mod outlet;
+mod places;
 mod process;
 mod refusal;
 mod simulate;
@@ -42,12 +45,12 @@ mod wall;
 
 pub use deck::Deck;
 pub use dump::Parts;
-pub use error::LammpsError;
+pub use error::{LammpsError, Refusal};
 pub use files::FRAMES;
 pub use folder::{Start, open};
 pub use inflow::Inflow;
 pub use law::Target;
 pub use process::Engine;
-pub use refusal::{Allowed, Refusal, allow};
+pub use refusal::{Allowed, allow};
 pub use simulate::{Origin, Outcome, Prepared, Settings, prepare, run, sampled};
 pub use version::Version;

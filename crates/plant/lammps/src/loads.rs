@@ -8,15 +8,15 @@
 //! Where the two touch, n and the overlap follow from the frame. Forces of planes are those of the step; LAMMPS computes those of pairs again at the end of the
 //! step, so a dashpot has the speed half a step later.
 
-use crate::arrivals::{self, Arrival};
-use crate::data::{number_of, wrapped};
-use crate::dump::{Block, Dump, Ended};
+use crate::dump::{Block, Dump, Ended, block};
 use crate::files::{COLUMNS, OF_BONDS, PAIRS, TOUCHES, TURNS, ZONE};
+use crate::instant::{Now, particle};
 use crate::joined;
+use crate::places::{nearest, number_of, wrapped};
 use crate::types::{Types, law};
 use dem::ContactRecord;
 use dem::WallForce;
-use dem::setup::{Particle, Setup, WallShape};
+use dem::setup::{Setup, WallShape};
 use geom::Vec3;
 use scene::keys::SceneKeys;
 use std::fmt::Write;
@@ -142,28 +142,6 @@ pub struct Loads<'a> {
     spheres: Vec<(usize, Vec3, f64)>,
 }
 
-/// What is known when the loads of a frame are read.
-pub struct Now<'a> {
-    /// The scene's setup.
-    pub setup: &'a Setup,
-    /// Grains that come in, by id.
-    pub arrivals: &'a [Arrival],
-    /// Step of the frame, and its time [s].
-    pub step: u64,
-    /// Time [s].
-    pub time: f64,
-    /// All particles by id.
-    pub particles: &'a [Particle],
-}
-
-impl Now<'_> {
-    /// Whether an atom is a grain that forces act on: those on their way in feel nothing, and walls do not move by them.
-    fn is_free(&self, number: u64) -> bool {
-        let grain = self.particles.binary_search_by_key(&number, |p| number_of(p.id)).is_ok();
-        grain && arrivals::is_free(self.arrivals, number, self.time)
-    }
-}
-
 impl<'a> Loads<'a> {
     /// Of dumps that are there where they are asked for.
     pub fn new(
@@ -274,24 +252,6 @@ impl<'a> Loads<'a> {
     }
 }
 
-/// What a dump has of the step of a frame, if there is one.
-///
-/// # Errors
-/// A dump that ends, or is wrong.
-pub fn block(dump: &mut Option<Dump>, step: u64) -> Result<Option<Block>, Ended> {
-    match dump.as_mut().map(Dump::next_block) {
-        None => Ok(None),
-        Some(Ok(block)) if block.step == step => Ok(Some(block)),
-        Some(Ok(block)) => Err(Ended::Wrong(format!(
-            "contacts or bonds of step {} follow the frame of step {step}",
-            block.step
-        ))),
-        // The frame is there, and what belongs to it is not.
-        Some(Err(Ended::Over)) => Err(Ended::Torn),
-        Some(Err(ended)) => Err(ended),
-    }
-}
-
 /// Forces on walls from the contacts of a frame.
 pub fn on_walls(contacts: &[ContactRecord], setup: &Setup, time: f64) -> Vec<WallForce> {
     let still = |w: &dem::setup::Wall| WallForce {
@@ -307,20 +267,4 @@ pub fn on_walls(contacts: &[ContactRecord], setup: &Setup, time: f64) -> Vec<Wal
         wall.contacts += 1;
     }
     forces
-}
-
-fn particle<'a>(now: &Now<'a>, number: u64) -> Result<&'a Particle, Ended> {
-    let found = now.particles.binary_search_by_key(&number, |p| number_of(p.id));
-    let missing = || Ended::Wrong(format!("contacts: atom {number} is no particle of the scene"));
-    found.map(|index| &now.particles[index]).map_err(|_| missing())
-}
-
-/// The shortest of the vectors that a periodic domain makes of one.
-pub fn nearest(setup: &Setup, mut apart: Vec3) -> Vec3 {
-    for axis in 0..3 {
-        if let Some((low, high)) = setup.periodic[axis] {
-            apart[axis] -= (high - low) * (apart[axis] / (high - low)).round();
-        }
-    }
-    apart
 }

@@ -7,7 +7,7 @@
 //!
 //! The velocity of a region is the difference of two of its positions over a step; that of atoms is given exactly.
 
-use crate::refusal::Refusal;
+use crate::error::Refusal;
 use dem::setup::{Motion, Wall};
 use geom::{Plane, Vec3};
 

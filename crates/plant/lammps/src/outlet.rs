@@ -6,10 +6,10 @@
 //!
 //! Behind the plane a grain moves freely and acts on all others, up to the exclusion plane; LAMMPS takes it out there.
 
-use crate::arrivals::{self, Arrival};
+use crate::arrival::{self, Arrival};
 use crate::dump::{Block, Dump, Ended, Parts};
+use crate::error::Refusal;
 use crate::files::{COLUMNS, ZONE};
-use crate::refusal::Refusal;
 use dem::setup::{Crossing, Particle, Setup, Zone, ZoneMotion, ZoneTest};
 use geom::Vec3;
 use std::collections::BTreeMap;
@@ -142,11 +142,11 @@ impl<'a> Search<'a> {
         let rows = || frame.rows().filter_map(numbered);
         for (number, now) in rows() {
             let Some(before) = self.before.get(&number) else { continue };
-            if !arrivals::is_free(self.arrivals, number, from) {
+            if !arrival::is_free(self.arrivals, number, from) {
                 continue;
             }
             for (outlet, zone) in (0..).zip(&self.outlets) {
-                let found = self.particles.binary_search_by_key(&number, |p| crate::data::number_of(p.id));
+                let found = self.particles.binary_search_by_key(&number, |p| crate::places::number_of(p.id));
                 let Ok(particle) = found.map(|index| &self.particles[index]) else { continue };
                 let ahead = if zone.test == ZoneTest::Lowest { particle.radius } else { 0.0 };
                 let [a, b] = [before, &now].map(|v| {

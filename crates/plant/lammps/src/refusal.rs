@@ -3,37 +3,12 @@
 use crate::bonds;
 use crate::breaking;
 use crate::clumps;
-use crate::error::{LammpsError, Result};
+use crate::error::{LammpsError, Refusal, Result};
 use crate::law::Target;
 use crate::outlet;
 use dem::setup::{Precision, Setup, WallShape, ZoneMotion};
 use scene::keys::SceneKeys;
 use scene::{Plan, Scene};
-use std::fmt;
-
-/// Something that LAMMPS cannot do.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Refusal {
-    /// Key or name in the scene.
-    pub what: String,
-    /// Why.
-    pub why: String,
-    /// The nearest that LAMMPS can do, as an instruction.
-    pub nearest: String,
-}
-
-impl Refusal {
-    /// A refusal.
-    pub fn new(what: impl Into<String>, why: impl Into<String>, nearest: impl Into<String>) -> Refusal {
-        Refusal { what: what.into(), why: why.into(), nearest: nearest.into() }
-    }
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}: {}: {}", self.what, self.why, self.nearest)
-    }
-}
 
 /// A condition, what it makes impossible, why, and the nearest.
 type Case = (bool, &'static str, &'static str, &'static str);

@@ -1,17 +1,19 @@
 //! A run on LAMMPS, written as it comes.
 
-use crate::arrivals::{self, Arrival};
+use crate::arrival::Arrival;
+use crate::arrivals;
 use crate::bonds::Bonds;
 use crate::clumps;
 use crate::deck::{Deck, Source};
 use crate::dump::Parts;
+use crate::error::Refusal;
 use crate::error::{LammpsError, Result};
 use crate::files::{DUMPS, FRAMES};
 use crate::folder::{self, Start};
 use crate::inflow::Inflow;
 use crate::job::Job;
 use crate::process::{Engine, Place};
-use crate::refusal::{self, Allowed, Refusal};
+use crate::refusal::{self, Allowed};
 use dem::setup::{Setup, WallShape};
 use run::{Progress, RunError, RunFile, Schedule};
 use scene::keys::{Patches, Sampling};

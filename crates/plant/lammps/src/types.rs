@@ -1,8 +1,8 @@
 //! Atom types: one for each material of grains and each wall of spheres, and one for each size where a law depends on it.
 
+use crate::error::Refusal;
 use crate::grain::Meeting;
 use crate::law::depends_on_size;
-use crate::refusal::Refusal;
 use dem::setup::{ContactLaw, Setup, WallShape};
 
 /// Sizes of one material that get a type each: LAMMPS has coefficients for each pair of types.

@@ -1,8 +1,8 @@
 //! Walls as commands: a plane is a region with a `fix wall/gran/region` for each type of grains; wall spheres are atoms, frozen or moved.
 
+use crate::error::Refusal;
 use crate::law::{Target, coefficients};
 use crate::motion::Movement;
-use crate::refusal::Refusal;
 use crate::types::{Kind, Types, law};
 use dem::effects::Elastic;
 use dem::setup::{Setup, Wall, WallShape};

@@ -13,6 +13,7 @@ pub mod entrance;
 pub mod error;
 pub mod halt;
 pub mod in_range;
+pub mod kind;
 pub mod limit;
 pub mod matched;
 pub mod mount;
@@ -29,6 +30,7 @@ pub use entrance::Entrance;
 pub use error::{SetupError, StateMismatch};
 pub use halt::{Halt, Partner, Stiffer};
 pub use in_range::Check;
+pub use kind::{Kind, With};
 pub use quantity::{Allowed, OutOfRange, Quantity, Subject};
 pub use step_cause::{
     BondedParticle, CriticalBonds, CriticalDrag, CriticalGrain, CriticalPair, CriticalPartner, Limit,
@@ -41,8 +43,7 @@ use crate::model::start::{faster_than_sleep, kinds, mean_radius, slow_enough, ti
 use crate::setup::Setup;
 use crate::space::search::FIRST_SKIN;
 use crate::walls::{self, WallBody};
-use laws::contact::touch::PatchLaw;
-use laws::contact::{Composition, MoveInputs};
+use laws::contact::MoveInputs;
 use laws::effects::needed;
 use laws::simd::{Layout, Precision, Width};
 use laws::space::cell::Cell;
@@ -76,36 +77,6 @@ pub struct Model {
     pub rotates: bool,
     /// The critical step of contacts alone [s], where bonds are made later.
     pub contact_step: f64,
-}
-
-/// What the particles of a kind of contact meet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum With {
-    /// Each other.
-    Particles,
-    /// Each other across a periodic face.
-    Images,
-    /// The wall of this number.
-    Wall(usize),
-}
-
-impl With {
-    /// Whether they meet a wall.
-    pub fn is_wall(self) -> bool {
-        matches!(self, With::Wall(_))
-    }
-}
-
-/// Contacts that share a law.
-pub struct Kind {
-    /// The law.
-    pub kernel: Box<dyn Composition>,
-    /// Materials, lower first; of the particle, then of the wall.
-    pub between: (u16, u16),
-    /// What they meet.
-    pub with: With,
-    /// How the contacts of a grain with spheres of a wall share it; `None` where each contact acts by itself.
-    pub patch: Option<PatchLaw>,
 }
 
 impl Model {

@@ -3,11 +3,10 @@
 use super::Placing;
 use super::insertion::Insertion;
 use super::obstacles::Obstacles;
-use super::servos::ServoArea;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
 use crate::input::{InletSource, RunContacts};
-use crate::keys::{self, SceneKeys};
+use crate::keys::{self, SceneKeys, Side};
 use crate::scene::Scene;
 use dem::setup::{self, EntryBonds, Particle, Zone};
 use geom::Shape;
@@ -218,4 +217,13 @@ impl<'a> PlanBuilder<'a> {
     pub(super) fn clump(&self, key: &str, name: &str) -> Result<u32> {
         Ok(self.check.named(key, name, "clump", self.keys().clump.iter().map(|c| c.name.as_str()))? as u32)
     }
+}
+
+/// A servo whose area lies between walls that are known by name.
+pub(super) struct ServoArea {
+    /// Index of its wall.
+    pub wall: usize,
+    /// Its key.
+    pub key: String,
+    pub sides: [Side; 2],
 }

@@ -1,8 +1,6 @@
 //! One entry of `[[insert]]`: through which section its grains come, how many, and which is next.
 
-use super::builder::PlanBuilder;
 use super::grading::{Grading, Grain};
-use super::insertion::Expected;
 use super::random::{generator, random_orientation};
 use super::section::Section;
 use super::total::Total;
@@ -73,20 +71,21 @@ pub(super) struct InsertedClump {
     pub size: f64,
 }
 
-impl PlanBuilder<'_> {
-    /// The feed of an entry, whose zone is the next of the plan.
+impl Feed {
+    /// The feed of entry number `index`, whose zone is number `inlet` of the plan.
     ///
     /// # Errors
     /// A shape that is too thin, has no end, or is too narrow for the rate.
-    pub(super) fn feed(
-        &self,
+    pub(super) fn new(
+        check: &Check,
+        inlet: u32,
         index: usize,
         entry: &Insert,
         shape: Shape,
         inserted: Inserted,
         first_id: u32,
     ) -> Result<Feed> {
-        let (check, velocity) = (&self.check, Vec3::from(entry.velocity));
+        let velocity = Vec3::from(entry.velocity);
         let key = |k: &str| format!("insert.{index}.{k}");
         let speed = velocity.norm();
         if speed == 0.0 {
@@ -117,7 +116,7 @@ impl PlanBuilder<'_> {
             time: entry.from,
             count: 0,
             first_id,
-            inlet: self.inlets.len() as u32,
+            inlet,
             random: generator(entry.seed, 2, index as u64),
         };
         if let (Some(mass), None) = (entry.mass, feed.next_time()) {
@@ -127,9 +126,7 @@ impl PlanBuilder<'_> {
         feed.check_rate(check, index)?;
         Ok(feed)
     }
-}
 
-impl Feed {
     /// The middle of where its grains become free, and how fast they are there.
     pub(super) fn leaves(&self) -> (Vec3, Vec3) {
         (self.section.zone().plane.point, self.velocity)
@@ -287,4 +284,13 @@ impl Feed {
         let particle = Particle { id, material: grain.material, radius, position, velocity, spin };
         Entry { time, inlet: self.inlet, particle, clump, turn: None, cluster: 0 }
     }
+}
+
+/// Particles that are expected to come in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expected {
+    /// Until the end.
+    pub all: f64,
+    /// Of these, on average over the run, when none leaves.
+    pub mean: f64,
 }

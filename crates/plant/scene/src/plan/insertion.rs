@@ -4,7 +4,7 @@
 //! are free behind it. Seen from the moving particles, successive positions are random and no two
 //! touch, because two particles that come Δt apart are v Δt apart along the velocity v.
 
-use super::feed::Feed;
+use super::feed::{Expected, Feed};
 use crate::error::{Result, SceneError};
 use dem::setup::Entry;
 use geom::{Shown, Vec3};
@@ -22,15 +22,6 @@ pub struct Insertion {
     pub(super) feeds: Vec<Feed>,
     /// Those that the next may touch, as they are seen by one that moves with them.
     recent: VecDeque<(Vec3, f64)>,
-}
-
-/// Particles that are expected to come in.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Expected {
-    /// Until the end.
-    pub all: f64,
-    /// Of these, on average over the run, when none leaves.
-    pub mean: f64,
 }
 
 impl Insertion {

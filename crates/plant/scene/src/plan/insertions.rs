@@ -21,7 +21,7 @@ impl PlanBuilder<'_> {
             let shape = self.shape(&format!("insert.{i}.shape"), &entry.shape)?;
             self.warn_of_grains_inside(i, entry, &shape);
             let inserted = self.inserted(i, entry)?;
-            let feed = self.feed(i, entry, shape, inserted, first_id)?;
+            let feed = Feed::new(&self.check, self.inlets.len() as u32, i, entry, shape, inserted, first_id)?;
             self.in_front_of_walls(&feed, &format!("insert.{i}.shape"), &entry.shape)?;
             let short = feed.falls_short().map(|(key, value, why)| {
                 let later = if entry.until.is_some() { "a later until" } else { "a longer repeat" };

@@ -23,6 +23,7 @@ mod implausible;
 mod insertion;
 mod insertions;
 mod kept;
+mod kept_clear;
 mod lattice;
 mod obstacles;
 mod packing;

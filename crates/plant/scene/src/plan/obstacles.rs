@@ -4,9 +4,7 @@
 //! in the way, so that particles start on the side of a wall on which they have room, also beside a scan whose shape no SHAPE describes. Images across
 //! periodic faces, of walls and of grains, count as the engine counts them.
 
-use super::builder::PlanBuilder;
 use super::images::Images;
-use crate::error::Result;
 use dem::setup::{Wall, WallShape};
 use geom::mesh::{TriMesh, closest_point};
 use geom::{Boxes, Plane, Vec3};
@@ -75,7 +73,7 @@ impl Obstacles {
     }
 
     /// Deepest overlap of a sphere with a wall, as a share of the smaller radius [–]; 0 or less: none.
-    fn deepest(&self, centre: &Vec3, radius: f64) -> f64 {
+    pub(super) fn deepest(&self, centre: &Vec3, radius: f64) -> f64 {
         let mut deepest = 0.0f64;
         for plane in &self.planes {
             deepest = deepest.max(self.in_plane(plane, centre, radius));
@@ -125,7 +123,7 @@ impl Obstacles {
 }
 
 /// Deepest overlap of spheres with images of each other, as a share of the smaller radius [–].
-fn deepest_across(spheres: &[(Vec3, f64)], images: &Images) -> f64 {
+pub(super) fn deepest_across(spheres: &[(Vec3, f64)], images: &Images) -> f64 {
     if images.is_empty() {
         return 0.0;
     }
@@ -144,46 +142,10 @@ fn deepest_across(spheres: &[(Vec3, f64)], images: &Images) -> f64 {
     deepest
 }
 
-impl PlanBuilder<'_> {
-    /// What a fill finds: all spheres that are placed, and the walls if it is to keep free of them.
-    pub(super) fn taken(&self) -> Taken {
-        Taken { spheres: self.spheres(), walls: self.obstacles.clone() }
-    }
-
-    /// What else than each other the spheres of a fill must not touch, for a message.
-    pub(super) fn in_the_way(&self) -> &'static str {
-        if self.obstacles.is_some() { " each other or a wall" } else { "" }
-    }
-
-    /// Places all fills again, free of the walls and of all images, if one of their spheres lies so deep in a wall or in the image of another one that the
-    /// run would be refused.
-    ///
-    /// # Errors
-    /// As [`PlanBuilder::particles`]: what no longer fits, with its number.
-    pub(super) fn free_of_walls(&mut self) -> Result<()> {
-        let keys = self.keys();
-        if keys.fill.is_empty() || (self.walls.is_empty() && keys.domain.periodic.is_empty()) {
-            return Ok(());
-        }
-        let images = Images::new(self.periodic()?);
-        let (walls, limit) = (Obstacles::of(&self.walls, images), self.overlap_limit());
-        let spheres = self.spheres();
-        let in_walls = |(centre, radius): &(Vec3, f64)| walls.deepest(centre, *radius) > limit;
-        if !spheres.iter().any(in_walls) && deepest_across(&spheres, &images) <= limit {
-            return Ok(());
-        }
-        let mut again =
-            PlanBuilder { hear: self.hear, obstacles: Some(Arc::new(walls)), ..PlanBuilder::new(self.scene) };
-        again.clump_shapes()?;
-        again.particles()?;
-        (self.particles, self.clusters, self.clumps) = (again.particles, again.clusters, again.clumps);
-        Ok(())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::Result;
     use geom::mesh::cuboid;
 
     const HEAD: &str = "[time]\nuntil = 1\n[[material]]\nname = \"m\"\ndensity = 1000\nyoung = 1e6\npoisson = 0.3\n\

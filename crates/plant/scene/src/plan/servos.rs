@@ -1,20 +1,11 @@
 //! Servos of walls: what they follow, and the walls that bound their areas.
 
-use super::builder::PlanBuilder;
+use super::builder::{PlanBuilder, ServoArea};
 use crate::error::{Result, nearest};
 use crate::input::{LOAD_COLUMNS, read_load};
 use crate::keys::{Servo, Side};
 use dem::setup::{self, Length, Target, WallShape};
 use geom::Vec3;
-
-/// A servo whose area lies between walls that are known by name.
-pub(super) struct ServoArea {
-    /// Index of its wall.
-    pub wall: usize,
-    /// Its key.
-    pub key: String,
-    pub sides: [Side; 2],
-}
 
 /// Two directions are the same from this cosine on: within 2.6°.
 const PARALLEL: f64 = 0.999;

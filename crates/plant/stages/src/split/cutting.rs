@@ -116,3 +116,6 @@ impl Cutting<'_> {
         Err(self.wrong(why, format!("use at least {} m", Shown(1.2 * self.largest))))
     }
 }
+
+/// Distances [m] from the plane that something covers, lowest and highest.
+pub type Range = (f64, f64);

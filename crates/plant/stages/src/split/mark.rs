@@ -5,8 +5,7 @@
 //! to half a diameter before the cut ([`super::sides`]); the materials of all these, and the contacts of the particles. All else is left
 //! out, also planes far from that column: plants that differ only behind the cut have the same mark.
 
-use super::cutting::Cutting;
-use super::sides::Range;
+use super::cutting::{Cutting, Range};
 use super::walls::planes;
 use dem::setup::WallShape;
 use geom::{Plane, Vec3};

@@ -4,55 +4,20 @@
 //! ([`sides`], [`sources`], [`walls`]), removes those of the other stage, adds the zone of the cut, and marks it with a hash of all that
 //! the flow through the cut depends on ([`mark`]), so that a record of another plant is refused. [`cutting`] holds the scene and the cut.
 
+mod cut;
 mod cutting;
 mod mark;
 mod sides;
 mod sources;
 mod walls;
 
+pub use cut::{Cut, Stage};
+
 use cutting::{Cutting, StageText};
-use dem::setup::{ZoneMotion, ZoneTest};
-use geom::Plane;
+use dem::setup::ZoneTest;
 use scene::{Result, Scene, SceneError, Text};
 use sources::largest;
-use std::path::PathBuf;
 use toml_edit::{Item, value};
-
-/// Which stage.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stage {
-    /// Before the plane.
-    Upstream,
-    /// Behind it.
-    Downstream,
-}
-
-impl Stage {
-    /// The list of zones that the cut adds to.
-    fn zone(self) -> &'static str {
-        match self {
-            Stage::Upstream => "outlet",
-            Stage::Downstream => "inlet",
-        }
-    }
-}
-
-/// Where a scene is cut.
-#[derive(Debug, Clone)]
-pub struct Cut {
-    /// Its normal is the direction of flow.
-    pub plane: Plane,
-    /// Which stage is kept.
-    pub keep: Stage,
-    /// Length of the zone [m]; absent: "auto".
-    pub length: Option<f64>,
-    /// Motion in the zone.
-    pub motion: ZoneMotion,
-    /// Which point of a particle crosses its planes.
-    pub test: ZoneTest,
-    /// Folder that files of the new scene are relative to.
-    pub folder: PathBuf,
-}
 
 /// Cuts a scene; the text of the stage, with the comments of what it keeps, and what was left out.
 ///
@@ -102,6 +67,7 @@ fn stage(scene: &Scene, cut: &Cut) -> Result<(String, Vec<String>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use dem::setup::ZoneMotion;
     use std::path::Path;
 
     const PLANT: &str = r#"# plant

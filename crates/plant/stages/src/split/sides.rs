@@ -2,14 +2,11 @@
 //! column act on them before the cut.
 
 use super::Stage;
-use super::cutting::Cutting;
+use super::cutting::{Cutting, Range};
 use super::sources::places;
 use geom::{Plane, Shape, Shown, Vec3};
 use scene::Result;
 use scene::plan::bounds;
-
-/// Distances [m] from the plane that something covers, lowest and highest.
-pub type Range = (f64, f64);
 
 /// Corners of all shapes that particles start in [m], and their projections half a diameter before the cut.
 pub struct Column(Vec<Vec3>);

@@ -1,8 +1,7 @@
 //! Where particles come from: fills, insertions, files, and the zones that are there already.
 
 use super::Stage;
-use super::cutting::{Cutting, StageText};
-use super::sides::Range;
+use super::cutting::{Cutting, Range, StageText};
 use geom::{Plane, Vec3};
 use record::column::{POSITION, SCALE};
 use scene::input::{ParticleFile, ParticleTable};

@@ -1,6 +1,9 @@
 //! The shape of the code: the engine's imports go down its layers, and files stay small enough to read.
 
+mod imports;
+
 use grainpipe_tests::tree::{packages, root, sources};
+use imports::Package;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -158,4 +161,33 @@ fn rooms_are_small_and_in_order() {
 
 fn sorted<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.filter(|name| !name.is_empty()).collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>().join(", ")
+}
+
+/// Files in one ring, at most.
+const RING: usize = 3;
+
+/// Imports go one way; the face of a folder and one or two of its files may know each other.
+#[test]
+fn no_ring_of_files_is_larger_than_a_small_folder() {
+    let mut large = Vec::new();
+    for of in ["crates", "tools"] {
+        for name in packages(of) {
+            let package = Package::read(&root().join(of).join(&name).join("src"));
+            for ring in package.circles() {
+                // The face of a folder, which has its name, belongs to it.
+                let is_face = |name: &Vec<String>| {
+                    ring.iter().any(|other| other.len() > name.len() && other.starts_with(name))
+                };
+                let folder = |name: &Vec<String>| match is_face(name) {
+                    true => name.clone(),
+                    false => name[..name.len().saturating_sub(1)].to_vec(),
+                };
+                let is_one = ring.iter().all(|name| folder(name) == folder(&ring[0]));
+                if ring.len() > RING || !is_one {
+                    large.push(format!("{name}:\n{}", package.ties(&ring).join("\n")));
+                }
+            }
+        }
+    }
+    assert!(large.is_empty(), "{}", large.join("\n"));
 }

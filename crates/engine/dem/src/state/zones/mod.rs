@@ -6,6 +6,10 @@
 //!
 //! A zone particle's row is overwritten after each move, so that the move itself needs no zones.
 
+mod flow;
+mod guide;
+mod watch;
+
 use crate::setup::{ContactHistory, Crossing, Entry, Setup, Zone};
 use crate::state::particles::select;
 use crate::state::row_order::RowOrder;
