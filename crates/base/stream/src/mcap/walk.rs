@@ -101,7 +101,7 @@ fn pass(from: &mut (impl Read + Seek), keep: bool, by_index: bool) -> io::Result
         let mut head = [0; HEAD];
         from.read_exact(&mut head)?;
         let (opcode, long) = (head[0], length(&head));
-        let next = at.checked_add(HEAD as u64 + long).filter(|next| *next <= end);
+        let next = long.checked_add(at + HEAD as u64).filter(|next| *next <= end);
         let Some(next) = next else { return Ok(None) };
         if !matches!(opcode, op::MESSAGE_INDEX) && !walk.close(&mut from, at + HEAD as u64, keep)? {
             return Ok(None);

@@ -161,6 +161,13 @@ fn damaged_files_do_no_harm() {
                 bytes[at] ^= flip;
                 let _ = length(&bytes);
             }
+            // Lengths and places as large as a number can be.
+            for wide in [[0xff; 8], [0xf7, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff]] {
+                let mut bytes = whole.clone();
+                let end = (at + wide.len()).min(bytes.len());
+                bytes[at..end].copy_from_slice(&wide[..end - at]);
+                let _ = length(&bytes);
+            }
             let _ = length(&whole[..at]);
         }
     }
