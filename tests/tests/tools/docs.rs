@@ -6,10 +6,10 @@ use std::{env, fs};
 /// What stands before and after a table that is printed.
 const MARKS: [&str; 2] = ["<!-- printed from the effects' descriptions -->\n", "<!-- until here -->\n"];
 
-/// docs/scene.md has the effects and keys of contacts as the engine describes them; GRAINPIPE_WRITE_DOCS=1 writes them there.
+/// docs/reference/scene.md has the effects and keys of contacts as the engine describes them; GRAINPIPE_WRITE_DOCS=1 writes them there.
 #[test]
 fn the_page_on_scenes_has_every_effect_and_key() {
-    let path = root().join("docs/scene.md");
+    let path = root().join("docs/reference/scene.md");
     let text = fs::read_to_string(&path).expect("the page is there");
     let (before, rest) = text.split_once(MARKS[0]).expect("the first mark");
     let (table, after) = rest.split_once(MARKS[1]).expect("the second mark");
@@ -20,7 +20,7 @@ fn the_page_on_scenes_has_every_effect_and_key() {
     } else {
         assert!(
             table == wanted,
-            "docs/scene.md is behind: run this test with GRAINPIPE_WRITE_DOCS=1\n{wanted}"
+            "docs/reference/scene.md is behind: run this test with GRAINPIPE_WRITE_DOCS=1\n{wanted}"
         );
     }
 }

@@ -35,12 +35,13 @@ fn every_make_target_exists() {
 /// The number of attacks is that of the page that the attack writes.
 #[test]
 fn the_number_of_attacks_is_that_of_the_page() {
-    let page = fs::read_to_string(root().join("docs/reliability.md")).expect("docs/reliability.md is there");
+    let page = fs::read_to_string(root().join("docs/evidence/reliability.md"))
+        .expect("docs/evidence/reliability.md is there");
     let (before, _) = page.split_once(" cases, seed ").expect("a count");
     let count: String = before.chars().rev().take_while(char::is_ascii_digit).collect();
     let count: String = count.chars().rev().collect();
     let readme = readme();
-    let (_, line) = readme.split_once("(docs/reliability.md)").expect("a link");
+    let (_, line) = readme.split_once("(docs/evidence/reliability.md)").expect("a link");
     let said: String = line.lines().next().expect("a line").chars().filter(char::is_ascii_digit).collect();
     assert_eq!(said, count);
 }
