@@ -58,14 +58,15 @@ fn main() -> io::Result<()> {
     print!("{page}");
     let Some(file) = arguments.get(3) else { return Ok(()) };
     fs::write(file, page + &rest(file))?;
-    readme(file, found.count())
+    overview(file, found.count())
 }
 
-/// The number of cases in the line of README.md that links the page.
-fn readme(page: &str, count: usize) -> io::Result<()> {
-    let Some(file) = Path::new(page).ancestors().map(|f| f.join("README.md")).find(|f| f.exists()) else {
+/// The number of cases in the line of overview.md, beside the page, that links it.
+fn overview(page: &str, count: usize) -> io::Result<()> {
+    let file = Path::new(page).with_file_name("overview.md");
+    if !file.exists() {
         return Ok(());
-    };
+    }
     let text = fs::read_to_string(&file)?;
     let Some((before, rest)) = text.split_once("killed programs: ") else { return Ok(()) };
     let Some((_, after)) = rest.split_once(" cases |") else { return Ok(()) };
