@@ -68,19 +68,20 @@ fn links(text: &str) -> Vec<String> {
     found
 }
 
+/// A heading without the targets of its links.
+fn without_targets(heading: &str) -> String {
+    let mut parts = heading.split("](");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| text + part.split_once(')').map_or(part, |(_, rest)| rest))
+}
+
 /// The anchors of a page's headings, as mdBook and the usual hosts make them.
 fn anchors(text: &str) -> BTreeSet<String> {
     let mut times: BTreeMap<String, usize> = BTreeMap::new();
     let mut anchor = |heading: &str| {
-        let words: String =
-            heading.split("](").map(|part| part.split_once(')').map_or(part, |(_, rest)| rest)).collect();
-        let words = if heading.contains("](") { words } else { heading.to_owned() };
-        let kept = words.trim().chars().filter_map(|c| match c {
-            c if c.is_whitespace() => Some('-'),
-            c if c.is_alphanumeric() || c == '-' || c == '_' => Some(c),
-            _ => None,
-        });
-        let name: String = kept.collect::<String>().to_lowercase();
+        let words = without_targets(heading).trim().to_lowercase();
+        let kept = words.chars().filter(|c| c.is_whitespace() || c.is_alphanumeric() || "-_".contains(*c));
+        let name: String = kept.map(|c| if c.is_whitespace() { '-' } else { c }).collect();
         let before = times.entry(name.clone()).or_default();
         *before += 1;
         if *before == 1 { name } else { format!("{name}-{}", *before - 1) }
@@ -145,11 +146,12 @@ fn every_page_that_a_source_names_exists() {
     let (mut wrong, mut seen) = (Vec::new(), 0);
     for source in with_endings(&[".rs", ".sh", ".toml", ".mk", "Makefile", ".py"]) {
         let text = read(&source);
-        for name in text.split("docs/").skip(1) {
-            let name = name
-                .split(|c: char| !c.is_ascii_alphanumeric() && !"-_/.".contains(c))
-                .next()
-                .unwrap_or_default();
+        // `$docs/…` is a variable of a script.
+        let starts = text.match_indices("docs/").filter(|(at, _)| !text[..*at].ends_with('$'));
+        for (at, start) in starts {
+            let rest = &text[at + start.len()..];
+            let ends = |c: char| !c.is_ascii_alphanumeric() && !"-_/.".contains(c);
+            let name = rest.split(ends).next().unwrap_or_default();
             let Some((page, _)) = name.split_once(".md") else { continue };
             seen += 1;
             if !page.is_empty() && !root().join(format!("docs/{page}.md")).exists() {
