@@ -156,3 +156,17 @@ fn rooms_are_small_and_in_order() {
 fn sorted<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.filter(|name| !name.is_empty()).collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>().join(", ")
 }
+
+/// A package's line in its manifest says what it is: registries and `cargo metadata` show it.
+#[test]
+fn every_package_says_what_it_is() {
+    let all = ["crates", "tools"].map(|of| packages(of).into_iter().map(move |path| format!("{of}/{path}")));
+    for package in all.into_iter().flatten() {
+        let manifest = fs::read_to_string(root().join(&package).join("Cargo.toml")).expect("it is there");
+        let said = manifest.lines().find_map(|line| line.strip_prefix("description = \""));
+        assert!(said.is_some_and(|words| words.len() > 12), "{package}/Cargo.toml has no description");
+        for key in ["repository", "keywords", "categories"] {
+            assert!(manifest.contains(&format!("\n{key}.workspace = true\n")), "{package}/Cargo.toml: {key}");
+        }
+    }
+}
