@@ -64,6 +64,14 @@ fn the_page_on_contact_laws_has_the_head_of_each() {
     compare("docs/theory/contact-laws.md", "the heads of the laws", &(page + "\n"));
 }
 
+/// A number of the table of materials, a large one with its power of ten.
+fn number(value: &toml::Value) -> String {
+    match value {
+        toml::Value::Float(x) if x.abs() >= 1e5 => format!("{x:e}"),
+        other => other.to_string(),
+    }
+}
+
 /// docs/reference/materials.md has the table of materials, with a source for each range.
 #[test]
 fn the_page_on_materials_has_the_table() {
@@ -83,7 +91,7 @@ fn the_page_on_materials_has_the_table() {
         page += "| key | from | to | source | note |\n|---|---|---|---|---|\n";
         for (key, entry) in material.as_table().expect("a table").iter().filter(|(_, entry)| entry.is_table())
         {
-            let range: Vec<String> = list(&entry["range"]).iter().map(ToString::to_string).collect();
+            let range: Vec<String> = list(&entry["range"]).iter().map(number).collect();
             let (source, note) = (text(entry.get("source")), text(entry.get("note")));
             writeln!(page, "| `{key}` | {} | {source} | {note} |", range.join(" | ")).expect("text");
         }
@@ -115,7 +123,9 @@ fn row(argument: &Value) -> String {
     };
     let plain =
         |text: String| text.replace('|', "\\|").replace('<', "&lt;").replace('*', "\\*").replace('\n', " ");
-    let values = words("values");
+    let names =
+        argument["values"].as_array().into_iter().flatten().filter_map(|value| value["name"].as_str());
+    let values: Vec<&str> = names.collect();
     let values = if values.is_empty() { String::new() } else { format!(": {}", values.join(", ")) };
     let defaults = words("defaults").join(" ");
     format!(
