@@ -165,3 +165,17 @@ fn every_page_that_a_source_names_exists() {
     assert!(seen > 50, "{seen} names");
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
+
+/// A picture that no page shows is left over, or its page has lost it.
+#[test]
+fn every_picture_is_on_a_page() {
+    let shown: BTreeSet<PathBuf> = pages()
+        .iter()
+        .flat_map(|page| links(&read(page)).into_iter().map(|link| normal(&page.with_file_name(link))))
+        .collect();
+    let mut pictures = with_endings(&[".png", ".svg", ".gif"]);
+    pictures.retain(|path| path.starts_with(root().join("docs")));
+    assert!(pictures.len() > 50, "{}", pictures.len());
+    let unseen: Vec<&PathBuf> = pictures.iter().filter(|path| !shown.contains(*path)).collect();
+    assert!(unseen.is_empty(), "{unseen:#?}");
+}
