@@ -170,3 +170,12 @@ fn every_package_says_what_it_is() {
         }
     }
 }
+
+/// Who cites Grainpipe names the version of the workspace.
+#[test]
+fn the_citation_has_the_version_of_the_workspace() {
+    let read = |name: &str| fs::read_to_string(root().join(name)).expect("it is there");
+    let (manifest, citation) = (read("Cargo.toml"), read("CITATION.cff"));
+    let version = manifest.lines().find_map(|line| line.strip_prefix("version = ")).expect("a version");
+    assert!(citation.contains(&format!("\nversion: {}\n", version.trim_matches('"'))), "{version}");
+}
