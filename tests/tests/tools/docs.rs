@@ -28,32 +28,30 @@ fn the_page_on_scenes_has_every_effect_and_key() {
     compare("docs/reference/scene.md", "the effects' descriptions", &dem::effects::tables());
 }
 
-/// Files of the engine whose heads hold the laws of contacts.
-const LAWS: [&str; 12] = [
-    "hooke",
-    "hooke_direct",
-    "hertz",
-    "damping",
-    "jkr",
-    "walton_braun",
-    "cohesion",
-    "sliding_friction",
-    "weakening",
-    "rolling_resistance",
-    "constant_rolling",
-    "twisting_resistance",
+/// Files of the engine whose heads hold the laws of contacts, and what the laws are called.
+const LAWS: [(&str, &str); 12] = [
+    ("hooke", "Hooke"),
+    ("hooke_direct", "Hooke with a modulus or a dashpot"),
+    ("hertz", "Hertz"),
+    ("damping", "Damping ratio"),
+    ("jkr", "JKR"),
+    ("walton_braun", "Walton and Braun"),
+    ("cohesion", "Cohesion"),
+    ("sliding_friction", "Sliding friction"),
+    ("weakening", "Weakening friction"),
+    ("rolling_resistance", "Rolling resistance"),
+    ("constant_rolling", "Constant rolling resistance"),
+    ("twisting_resistance", "Twisting resistance"),
 ];
 
 /// docs/theory/contact-laws.md has the equations, sources and deviations that stand at the head of each law.
 #[test]
 fn the_page_on_contact_laws_has_the_head_of_each() {
     let mut page = String::new();
-    for name in LAWS {
+    for (name, title) in LAWS {
         let file = root().join(format!("crates/engine/dem/src/effects/{name}.rs"));
         let text = fs::read_to_string(file).expect("a law");
         let head = text.lines().map_while(|line| line.strip_prefix("//!"));
-        let mut title = name.replace('_', " ");
-        title[..1].make_ascii_uppercase();
         write!(page, "\n## {title}\n\n").expect("text");
         for line in head {
             // Links to items of the code are plain names here.
