@@ -170,7 +170,7 @@ fn every_package_says_what_it_is() {
     }
 }
 
-/// Who cites Grainpipe names the version of the workspace.
+/// A citation names the version of the workspace.
 #[test]
 fn the_citation_has_the_version_of_the_workspace() {
     let read = |name: &str| fs::read_to_string(root().join(name)).expect("it is there");
