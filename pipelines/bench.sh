@@ -2,7 +2,7 @@
 # Measures the speed of the chain from scan to walls, and of the engine by effect and by size, and compares it with the limits of memory and arithmetic.
 # usage: bench.sh OUT   (the tools on PATH)   environment: SIZES ("1000 10000 100000 1000000 5000000", none: ""), ROUNDS (3),
 # WORK (30: millions of particle-steps a timing), EFFECTS (yes or no), EXAMPLES (folder of the examples limits and tiles)
-# If none of them is set, the table is also written to docs/cost.md.
+# If none of them is set, the table is also written to docs/evidence/cost.md.
 set -euo pipefail
 shopt -s inherit_errexit
 here=$(cd "$(dirname "$0")" && pwd)
@@ -263,11 +263,11 @@ echo
 seconds=$(chain)
 echo "Scan of 277 647 points to wall spheres, one pipe: $seconds s (median of 3)." | tee chain
 
-page=$here/../docs/cost.md
+page=$here/../docs/evidence/cost.md
 if [ "$whole" = yes ] && [ -e "$page" ]; then
     { echo "$head"; cat table; echo; cat words; echo; cat chain; } > new
     awk '/<!-- bench begins -->/ { print; print ""; while ((getline line < "new") > 0) print line; print ""; skip = 1 }
         /<!-- bench ends -->/ { skip = 0 } !skip' "$page" > page
     cp page "$page"
-    echo "written to docs/cost.md"
+    echo "written to docs/evidence/cost.md"
 fi

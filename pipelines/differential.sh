@@ -1,7 +1,7 @@
 #!/bin/bash
 # Writes FILES files of every format and quirk with SEED, reads them with Grainpipe and with other programs (differential/peers.txt, in a virtual environment
 # in the folder PEERS, which is made if it is not there), and compares. Prints each difference, keeps its file in out/differential, and writes its part of
-# docs/reliability.md.
+# docs/evidence/reliability.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 peers=${PEERS:-pipelines/build/differential}
@@ -17,5 +17,5 @@ target=${CARGO_TARGET_DIR:-target}
 status=0
 "$peers/bin/python" pipelines/differential/attack.py --reader "$target/debug/examples/read_files" --files "${FILES:-8000}" --seed "${SEED:-1}" \
     --keep "$out/files" --page "$out/table.md" 2> "$out/warnings.txt" || status=$?
-[ ! -s "$out/table.md" ] || pipelines/stages/section.sh docs/reliability.md differential < "$out/table.md"
+[ ! -s "$out/table.md" ] || pipelines/stages/section.sh docs/evidence/reliability.md differential < "$out/table.md"
 exit "$status"

@@ -1,4 +1,4 @@
-# A bell-less blast furnace, from conveyor to burden: docs/furnace.md.
+# A bell-less blast furnace, from conveyor to burden: docs/how-to/furnace.md.
 #
 #   scan → chute.mcap;  plant.toml → upstream.toml, downstream.toml
 #   seed-N: upstream.mcap → inlet.mcap → one downstream run for each tilt programme, and one on the chute that the first has worn
@@ -70,9 +70,9 @@ $(FURNACE)/page.html: $(FURNACE)/seed-1/inwards.mcap
 $(FURNACE)/picture.png: $(FURNACE)/seed-1/upstream.mcap $(FURNACE)/seed-1/inwards.mcap
 	dem-view $^ --time 9.5 --camera front --cut --colour material --size 700x1000 -o $@
 
-furnace-study: $(foreach f,$(FURNACE_FOLDERS),$(patsubst %,$(f)/%.csv,undivided $(FURNACE_RUNS))) ## the same with the undivided plant beside it; writes the tables of docs/furnace.md (FURNACE_SEEDS="1 2 3")
+furnace-study: $(foreach f,$(FURNACE_FOLDERS),$(patsubst %,$(f)/%.csv,undivided $(FURNACE_RUNS))) ## the same with the undivided plant beside it; writes the tables of docs/how-to/furnace.md (FURNACE_SEEDS="1 2 3")
 	furnace/profile.sh undivided $(FURNACE_RUNS) -- $(FURNACE_FOLDERS) > $(FURNACE)/study.md
-	stages/section.sh ../docs/furnace.md profile < $(FURNACE)/study.md
+	stages/section.sh ../docs/how-to/furnace.md profile < $(FURNACE)/study.md
 
 # The full form: its drawings, its chute, and what it takes.
 FULL := $(OUT)/furnace-full

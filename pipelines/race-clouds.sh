@@ -3,7 +3,7 @@
 # usage: race-clouds.sh OUT   (the tools on PATH)   environment: SIZES ("277647 2989048"; above 5000000, such as 50000000, by one pipe
 # alone, from a file of 14 bytes a point), ROUNDS (3), LIMIT (6: memory that each tool may use [GB]), PEERS (folder of the virtual
 # environment with pymeshlab and Open3D)
-# If none of SIZES, ROUNDS and LIMIT is set, the table is also written to docs/cost.md.
+# If none of SIZES, ROUNDS and LIMIT is set, the table is also written to docs/evidence/cost.md.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 out=$(cd "$1" && pwd)
@@ -145,11 +145,11 @@ words() {
 }
 words | tee words
 
-page=$here/../docs/cost.md
+page=$here/../docs/evidence/cost.md
 if [ "$whole" = yes ] && grep -q 'race-clouds begins' "$page"; then
     { echo "$head"; cat table; echo; cat words; } > new
     awk '/<!-- race-clouds begins -->/ { print; print ""; while ((getline line < "new") > 0) print line; print ""; skip = 1 }
         /<!-- race-clouds ends -->/ { skip = 0 } !skip' "$page" > page
     cp page "$page"
-    echo "written to docs/cost.md"
+    echo "written to docs/evidence/cost.md"
 fi

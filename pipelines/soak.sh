@@ -1,6 +1,6 @@
 #!/bin/bash
 # Hard cases at full length, a line for each part: how long it took and how it ended. PARTS="rest turning" runs some of them, on another day the others.
-# pipelines/out/soak/PART.log holds what a part said, PART.jsonl what it found; docs/soak.md is made of all parts that have been run, once none is
+# pipelines/out/soak/PART.log holds what a part said, PART.jsonl what it found; docs/evidence/soak.md is made of all parts that have been run, once none is
 # missing. Two hours on one core.
 #
 #   kills     a run killed with SIGKILL at 200 (KILLS) random moments: frames, what is left, and the resumed run
@@ -40,9 +40,9 @@ missing=
 for name in $all; do [ -s "$out/$name.jsonl" ] || missing="$missing $name"; done
 if [ -z "$missing" ]; then
     for name in $all; do cat "$out/$name.jsonl"; done > "$out/findings.jsonl"
-    cargo run -p grainpipe-studies --bin stability --locked --quiet -- "$out/findings.jsonl" docs/soak.md Soak || failed=1
-    grep '^| ' docs/soak.md || true
+    cargo run -p grainpipe-studies --bin stability --locked --quiet -- "$out/findings.jsonl" docs/evidence/soak.md Soak || failed=1
+    grep '^| ' docs/evidence/soak.md || true
 else
-    echo "docs/soak.md is not written yet; these parts are missing:$missing"
+    echo "docs/evidence/soak.md is not written yet; these parts are missing:$missing"
 fi
 exit $failed

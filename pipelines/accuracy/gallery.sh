@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Measures what accuracy costs, case by case, and writes docs/accuracy.md with a plot for each. Runs are kept in the folder $1; finished
+# Measures what accuracy costs, case by case, and writes docs/evidence/accuracy.md with a plot for each. Runs are kept in the folder $1; finished
 # ones are used again. The tools must be on the path.
 set -euo pipefail
 mkdir -p "$1"
 OUT=$(cd "$1" && pwd)
 cd "$(dirname "$0")"
-DOCS=$(cd ../../docs && pwd)
+DOCS=$(cd ../../docs/evidence && pwd)
 
 # sweep NAME SCENE OPTIONS…: one curve, its plot, its words.
 sweep() {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Studies of calibrate, for docs/calibration.md: run.sh FOLDER PAGE.md
+# Studies of calibrate, for docs/evidence/calibration.md: run.sh FOLDER PAGE.md
 # REPEATS=30 sets how often the intervals are tested, JOBS=2 how many runs go on at once. What is there is used again.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Runs the chain on real scans and drawings; writes docs/data.md with a picture of each wall and the reports of the tools.
-# pictures.sh DATA OUT DOCS: DATA has the folders clouds and walls; tests/tests/tools/real_clouds.rs says where the files come from.
+# Runs the chain on real scans and drawings; writes docs/evidence/data.md with a picture of each wall and the reports of the tools.
+# pictures.sh DATA OUT DOCS: DOCS is docs/evidence; DATA has the folders clouds and walls; tests/tests/tools/real_clouds.rs says where the files come from.
 set -euo pipefail
 data=$1 out=$2 docs=$3
 mkdir -p "$out" "$docs/data"
@@ -58,9 +58,9 @@ HEAD
 scan Otira_1cm_grains.ply 0.03
 scan stonepile2_depthcam_120k.ply 0.01 --camera 35/40
 scan autzen_trim.laz 8 --camera 35/40
-# For docs/removal.md; its coordinates are in feet.
+# For docs/reference/removal.md; its coordinates are in feet.
 cloud-crop "$data/clouds/autzen_trim.laz" --scale 0.3048 --ground 20,0.3,0.1 --scattered 3,0.1 --mark -q -o "$out/marked.ply"
-dem-view "$out/marked.ply" --colour removed --size 800x450 -q -o "$docs/removal-marked.png"
+dem-view "$out/marked.ply" --colour removed --size 800x450 -q -o "$docs/../reference/removal-marked.png"
 printf '\n## Drawings\n' >>"$out/data.md"
 drawing deme_cone.obj 0.05
 drawing deme_funnel.obj 10

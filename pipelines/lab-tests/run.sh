@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs every laboratory test on the samples here and writes tables, plots and pictures of docs/lab-tests.md: run.sh OUT PAGE.md [GRAINS]
+# Runs every laboratory test on the samples here and writes tables, plots and pictures of docs/how-to/lab-tests.md: run.sh OUT PAGE.md [GRAINS]
 # Finished specimens in OUT are used again.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Compresses cylinders of glued grains, two at a time, and writes the table, the plot and the picture of docs/specimens.md: run.sh OUT PAGE.md
+# Compresses cylinders of glued grains, two at a time, and writes the table, the plot and the picture of docs/evidence/specimens.md: run.sh OUT PAGE.md
 # PACKINGS=5 sets how many of each kind there are.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)

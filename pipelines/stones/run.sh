@@ -1,5 +1,5 @@
 #!/bin/sh
-# Crushes stones of three sizes and writes the tables, the plot and the picture of docs/stones.md: run.sh OUT PAGE.md [STONES]
+# Crushes stones of three sizes and writes the tables, the plot and the picture of docs/evidence/stones.md: run.sh OUT PAGE.md [STONES]
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 out=$1; page=$2; stones=${3:-${STONES:-200}}

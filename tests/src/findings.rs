@@ -1,4 +1,4 @@
-//! What a test found, asserted and noted: `docs/stability.md` is made of the notes.
+//! What a test found, asserted and noted: `docs/evidence/stability.md` is made of the notes.
 //!
 //! With `GRAINPIPE_FINDINGS=FILE` each finding is appended to the file as one line of JSON; without it tests only assert.
 

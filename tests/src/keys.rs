@@ -1,4 +1,4 @@
-//! The keys of scenes, as the tables of docs/scene.md list them. A test compares the page with what the code knows.
+//! The keys of scenes, as the tables of docs/reference/scene.md list them. A test compares the page with what the code knows.
 
 /// A row of the page: where the key stands (`wall.motion`), its name, its type, and its unit.
 #[derive(Debug, Clone)]
@@ -37,7 +37,7 @@ fn named(text: &str) -> Option<String> {
 /// # Panics
 /// When the page cannot be read.
 pub fn documented() -> Vec<Documented> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scene.md");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/reference/scene.md");
     let text = std::fs::read_to_string(path).expect("the page");
     let (mut heading, mut table, mut head, mut rows) = (None, None, Vec::new(), Vec::new());
     for row in text.lines() {

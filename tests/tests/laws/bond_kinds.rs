@@ -146,7 +146,7 @@ fn the_section_is_where_the_surfaces_meet() {
     UNEQUAL.equals("radii 10 and 4 mm", moved.y, "m", expected, 1e-6);
 }
 
-/// P_i, P_j and Q of one bond (docs/time-step.md), and its normal stiffness.
+/// P_i, P_j and Q of one bond (docs/theory/time-step.md), and its normal stiffness.
 fn tilt(kind: BondKind, ratio: f64) -> ([f64; 3], f64) {
     let (area, inertia) = (AREA * ratio * ratio, INERTIA * ratio.powi(4));
     match kind {

@@ -147,7 +147,7 @@ fn rooms_are_small_and_in_order() {
         |room: &str| order.iter().position(|name| name == room).unwrap_or_else(|| panic!("{room}: {pages}"));
     for (name, (room, used)) in &crates {
         let above = used.iter().find(|other| height(&crates[*other].0) > height(room));
-        assert_eq!(above, None, "{room}/{name} uses what stands above");
+        assert!(above.is_none(), "{room}/{name} uses {above:?}, whose room stands above");
     }
     for of in ["crates", "tools"] {
         let mut count: BTreeMap<String, usize> = BTreeMap::new();
@@ -190,4 +190,27 @@ fn no_ring_of_files_is_larger_than_a_small_folder() {
         }
     }
     assert!(large.is_empty(), "{}", large.join("\n"));
+}
+
+/// A package's line in its manifest says what it is: registries and `cargo metadata` show it.
+#[test]
+fn every_package_says_what_it_is() {
+    let all = ["crates", "tools"].map(|of| packages(of).into_iter().map(move |path| format!("{of}/{path}")));
+    for package in all.into_iter().flatten() {
+        let manifest = fs::read_to_string(root().join(&package).join("Cargo.toml")).expect("it is there");
+        let said = manifest.lines().find_map(|line| line.strip_prefix("description = \""));
+        assert!(said.is_some_and(|words| words.len() > 12), "{package}/Cargo.toml has no description");
+        for key in ["repository", "keywords", "categories"] {
+            assert!(manifest.contains(&format!("\n{key}.workspace = true\n")), "{package}/Cargo.toml: {key}");
+        }
+    }
+}
+
+/// A citation names the version of the workspace.
+#[test]
+fn the_citation_has_the_version_of_the_workspace() {
+    let read = |name: &str| fs::read_to_string(root().join(name)).expect("it is there");
+    let (manifest, citation) = (read("Cargo.toml"), read("CITATION.cff"));
+    let version = manifest.lines().find_map(|line| line.strip_prefix("version = ")).expect("a version");
+    assert!(citation.contains(&format!("\nversion: {}\n", version.trim_matches('"'))), "{version}");
 }

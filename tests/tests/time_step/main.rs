@@ -1,5 +1,5 @@
 //! The bound on the time step: safe for every configuration, and not wasteful for those that it is meant for.
-//! Derived in docs/time-step.md.
+//! Derived in docs/theory/time-step.md.
 
 mod crystals;
 mod dense;

@@ -1,4 +1,4 @@
-//! Every key of a scene, in each form of its value: the tables of docs/scene.md list what the code knows, each row stands in a scene here, and
+//! Every key of a scene, in each form of its value: the tables of docs/reference/scene.md list what the code knows, each row stands in a scene here, and
 //! every scene runs.
 
 mod scenes;

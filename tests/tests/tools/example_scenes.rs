@@ -39,15 +39,15 @@ fn every_example_is_a_plant_of_the_makefile_and_stands_on_the_page() {
     assert_eq!(plants, scenes());
     let page = page();
     for name in scenes() {
-        assert!(page.contains(&format!("(../examples/{name}.toml)")), "{name}");
+        assert!(page.contains(&format!("(../../examples/{name}.toml)")), "{name}");
     }
     for link in page.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
-        assert!(root().join("docs").join(link).exists(), "docs/first-scene.md links {link}");
+        assert!(root().join("docs/start").join(link).exists(), "docs/start/first-scene.md links {link}");
     }
 }
 
 fn page() -> String {
-    fs::read_to_string(root().join("docs/first-scene.md")).unwrap()
+    fs::read_to_string(root().join("docs/start/first-scene.md")).unwrap()
 }
 
 /// A folder in which the commands of the page find what they name, with a dem-run that stops after a moment.

@@ -67,7 +67,7 @@ fn the_full_form_is_a_million_grains_as_its_page_says() {
     let folder = folder();
     let told = make(folder.path(), "furnace-explain");
     let told = String::from_utf8_lossy(&told.stdout) + &*told.stderr;
-    let page = root().join("docs/furnace.md");
+    let page = root().join("docs/how-to/furnace.md");
     let page = fs::read_to_string(page).unwrap();
     let behind = |text: &str, start: &str| -> String {
         let rest = text.split(start).nth(1).unwrap_or_else(|| panic!("{start}: {text}"));

@@ -1,4 +1,4 @@
-//! A plant of a user's own: the Makefile of docs/plants.md, its files, and each of its stages swapped for another program.
+//! A plant of a user's own: the Makefile of docs/how-to/plants.md, its files, and each of its stages swapped for another program.
 
 use grainpipe_tests::tree::root;
 use grainpipe_tests::{skip, tools::program};
@@ -15,7 +15,7 @@ const FILES: [&str; 7] =
 /// The folder of a user: a scan, a scene, and the documented Makefile, with fewer points and a short run.
 fn plant() -> TempDir {
     let folder = tempdir().unwrap();
-    let text = fs::read_to_string(root().join("docs/plants.md")).unwrap();
+    let text = fs::read_to_string(root().join("docs/how-to/plants.md")).unwrap();
     let makefile = text.split("```make\n").nth(1).unwrap().split("```").next().unwrap();
     assert!(makefile.lines().count() <= 10, "{makefile}");
     let rules = root().join("pipelines/plant.mk").display().to_string();

@@ -71,7 +71,7 @@ fn said(folder: &Path, modules: &str, script: &str) -> Option<String> {
 
 /// The Python lines of the documentation.
 fn documented() -> String {
-    let path = root().join("docs/python.md");
+    let path = root().join("docs/how-to/python.md");
     let text = fs::read_to_string(path).unwrap();
     let blocks = text.split("```python\n").skip(1).filter_map(|rest| rest.split("```").next());
     blocks.collect::<Vec<_>>().concat()

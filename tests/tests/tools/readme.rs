@@ -1,13 +1,27 @@
-//! The commands of README.md: every one runs as it stands, in a copy of the folders that it names, dem-run for a moment only.
+//! The commands of README.md and of the pages that it leads to first: each runs as it stands, in a copy of the folders that it names, dem-run
+//! for a moment only.
 
 use grainpipe_tests::tools::{program, succeed};
 use grainpipe_tests::tree::{root, tools};
+use std::collections::BTreeMap;
 use std::fs;
 use std::process::Command;
 use tempfile::tempdir;
 
-fn readme() -> String {
-    fs::read_to_string(root().join("README.md")).expect("README.md is there")
+fn read(page: &str) -> String {
+    fs::read_to_string(root().join(page)).unwrap_or_else(|why| panic!("{page}: {why}"))
+}
+
+/// Pages whose commands run.
+const PAGES: [&str; 3] = ["README.md", "docs/how-to/scan-to-walls.md", "docs/how-to/furnace.md"];
+
+/// Words that README.md may have, its picture and its tables counted.
+const WORDS: usize = 450;
+
+#[test]
+fn the_readme_is_one_screen() {
+    let words = read("README.md").split_whitespace().count();
+    assert!(words <= WORDS, "{words} words");
 }
 
 /// The blocks of shell commands.
@@ -24,8 +38,8 @@ fn behind<'a>(text: &'a str, start: &str) -> Vec<&'a str> {
 #[test]
 fn every_make_target_exists() {
     let rules = |name: &str| fs::read_to_string(root().join("pipelines").join(name)).expect("rules of make");
-    let (readme, makefile) = (readme(), rules("Makefile") + &rules("furnace.mk"));
-    let targets = behind(&readme, "make -C pipelines ");
+    let (text, makefile) = (PAGES.map(read).concat(), rules("Makefile") + &rules("furnace.mk"));
+    let targets = behind(&text, "make -C pipelines ");
     assert!(targets.len() > 4, "{targets:?}");
     for target in targets {
         assert!(makefile.lines().any(|l| l.starts_with(&format!("{target}:"))), "make -C pipelines {target}");
@@ -35,41 +49,79 @@ fn every_make_target_exists() {
 /// The number of attacks is that of the page that the attack writes.
 #[test]
 fn the_number_of_attacks_is_that_of_the_page() {
-    let page = fs::read_to_string(root().join("docs/reliability.md")).expect("docs/reliability.md is there");
+    let page = read("docs/evidence/reliability.md");
     let (before, _) = page.split_once(" cases, seed ").expect("a count");
     let count: String = before.chars().rev().take_while(char::is_ascii_digit).collect();
     let count: String = count.chars().rev().collect();
-    let readme = readme();
-    let (_, line) = readme.split_once("(docs/reliability.md)").expect("a link");
+    let overview = read("docs/evidence/overview.md");
+    let (_, line) = overview.split_once("(reliability.md)").expect("a link");
     let said: String = line.lines().next().expect("a line").chars().filter(char::is_ascii_digit).collect();
     assert_eq!(said, count);
 }
 
-#[test]
-fn every_file_that_is_linked_exists() {
-    let readme = readme();
-    for link in readme.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
-        assert!(root().join(link).exists(), "README.md links {link}");
-    }
+/// Pages that people read before they call a tool: all but those of evidence, which tell what was run.
+fn guides() -> Vec<String> {
+    let docs = root().join("docs");
+    let folders = ["start", "how-to", "reference"].map(|room| docs.join(room));
+    let files = folders.iter().flat_map(|folder| fs::read_dir(folder).expect("a folder"));
+    let pages = files
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension() == Some("md".as_ref()));
+    let mut pages: Vec<String> =
+        pages.map(|page| page.strip_prefix(root()).expect("below").display().to_string()).collect();
+    pages.push("README.md".to_owned());
+    pages.sort();
+    pages
 }
 
-/// Options in the text.
+/// Options in the text and in the blocks of shell commands.
 #[test]
 fn every_option_is_in_its_tools_help() {
-    let readme = readme();
-    // Blocks stand between backticks as well.
-    let code: Vec<&str> = readme.split('`').skip(1).step_by(2).collect();
-    let (tools, mut seen) = (tools(), 0);
-    for command in code.iter().flat_map(|c| c.split(['|', '\n'])).flat_map(|c| c.split("&&")) {
-        let mut words = command.split_whitespace();
-        let Some(name) = words.next().filter(|n| tools.contains(*n)) else { continue };
-        let help = String::from_utf8_lossy(&succeed(&root(), name, &["--help"]).stdout).into_owned();
-        for option in words.filter(|w| w.starts_with("--")) {
-            seen += 1;
-            assert!(help.split([' ', ',', '=', '\n']).any(|w| w == option), "{name} has no {option}");
+    let (tools, mut seen, mut wrong) = (tools(), 0, Vec::new());
+    let mut helps: BTreeMap<String, String> = BTreeMap::new();
+    for page in guides() {
+        let text = read(&page);
+        // Blocks stand between backticks as well.
+        let code: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
+        for command in code.iter().flat_map(|c| c.split(['|', '\n', '#'])).flat_map(|c| c.split("&&")) {
+            let mut words = command.split_whitespace();
+            let Some(name) = words.next().filter(|n| tools.contains(*n)) else { continue };
+            let help = helps.entry(name.to_owned()).or_insert_with(|| {
+                String::from_utf8_lossy(&succeed(&root(), name, &["--help"]).stdout).into_owned()
+            });
+            for option in words.filter(|w| w.starts_with("--") && w.len() > 2) {
+                let option = option.split('=').next().unwrap_or_default().trim_end_matches([',', ';', '.']);
+                seen += 1;
+                if !help.split([' ', ',', '=', '\n', '<', '|', '>']).any(|w| w == option) {
+                    wrong.push(format!("{page}: {name} has no {option}"));
+                }
+            }
         }
     }
-    assert!(seen > 10, "{seen} options");
+    assert!(seen > 200, "{seen} options");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Scenes that a guide asks to save, `# NAME.toml` in their first line.
+#[test]
+fn every_scene_of_a_guide_can_run() {
+    let mut seen = 0;
+    for page in guides() {
+        let text = read(&page);
+        for scene in text.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()) {
+            let Some(name) = scene.lines().next().and_then(|line| line.strip_prefix("# ")) else { continue };
+            if !name.ends_with(".toml") || !scene.contains("[[fill]]") && !scene.contains("[[insert]]") {
+                continue;
+            }
+            let folder = tempdir().unwrap();
+            let drawings = root().join("examples/drawings").display().to_string();
+            fs::write(folder.path().join(name), scene.replace("examples/drawings", &drawings)).unwrap();
+            let done = succeed(folder.path(), "dem-run", &[name, "--check"]);
+            assert!(!done.stderr.contains("warning"), "{page}: {}", done.stderr);
+            seen += 1;
+        }
+    }
+    assert!(seen >= 2, "{seen} scenes");
 }
 
 #[test]
@@ -97,8 +149,9 @@ fn every_block_runs() {
         .unwrap();
     fs::set_permissions(at("bin/dem-run"), fs::Permissions::from_mode(0o755)).unwrap();
     let path = format!("{}:{}:/usr/bin:/bin", at("bin").display(), engine.parent().unwrap().display());
-    let readme = readme();
-    let runs: Vec<&str> = blocks(&readme).into_iter().filter(|b| !b.contains("make ")).collect();
+    let pages = PAGES.map(read);
+    let known = |block: &&str| !block.contains("make ") && !block.contains("scan.e57");
+    let runs: Vec<&str> = pages.iter().flat_map(|page| blocks(page)).filter(known).collect();
     assert_eq!(runs.len(), 3);
     for block in std::iter::once(chute).chain(runs) {
         let mut shell = Command::new("bash");

@@ -1,6 +1,6 @@
 //! The sinter box, scaled down and softened: in stages it makes the slope that the plant makes undivided, and all its forms have one friction.
 //!
-//! The full case is `make -C pipelines sinter-box`; what it found is in docs/stages.md.
+//! The full case is `make -C pipelines sinter-box`; what it found is in docs/evidence/stages.md.
 
 use grainpipe_tests::tools::{line, succeed};
 use grainpipe_tests::tree::root;

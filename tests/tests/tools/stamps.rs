@@ -14,7 +14,7 @@ fn stamped() -> Vec<String> {
 
 #[test]
 fn a_page_of_stages_is_that_of_these_scenes_and_of_what_these_programs_make_of_them() {
-    let page = std::fs::read_to_string(root().join("docs/stages.md")).unwrap();
+    let page = std::fs::read_to_string(root().join("docs/evidence/stages.md")).unwrap();
     let found: BTreeSet<&str> = page.lines().filter(|l| l.starts_with("<!-- stamp: ")).collect();
     let folder = root().join("pipelines/stages");
     let today: Vec<String> = stamped()

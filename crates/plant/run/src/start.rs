@@ -90,7 +90,7 @@ impl<W: Write> Run<W> {
 
 /// What a device does not compute.
 fn not_computed(refused: &[String]) -> SceneError {
-    let why = format!("it does not compute {} (docs/gpu.md says what it does)", refused.join(", "));
+    let why = format!("it does not compute {} (docs/how-to/gpu.md says what it does)", refused.join(", "));
     SceneError::file("--device", why, "leave the option out, or these out of the scene")
 }
 

@@ -5,7 +5,7 @@ use crate::levels::{CELL, EXAMINED, Level};
 use geom::{Shape, Vec3};
 use serde::Serialize;
 
-/// Width of the smallest hole that is found, in spacings: of wider ones nearly all are (docs/filling.md has the study).
+/// Width of the smallest hole that is found, in spacings: of wider ones nearly all are (docs/evidence/holes.md has the study).
 const SMALLEST: f64 = 8.0;
 /// Points that stand for those of a region.
 const SOME: usize = 1000;

@@ -1,4 +1,4 @@
-//! Attacks the tools and writes docs/reliability.md: `attack FILES KILLS SEED [PAGE.md]`;
+//! Attacks the tools and writes docs/evidence/reliability.md: `attack FILES KILLS SEED [PAGE.md]`;
 //! `attack short _ SEED` makes a part of each kind in minutes and writes no page;
 //! `attack silent [options|keys] [ONE_IN] [TOOL…] [--OPTION…]` only lists silent options and keys, or those named.
 
@@ -58,14 +58,15 @@ fn main() -> io::Result<()> {
     print!("{page}");
     let Some(file) = arguments.get(3) else { return Ok(()) };
     fs::write(file, page + &rest(file))?;
-    readme(file, found.count())
+    overview(file, found.count())
 }
 
-/// The number of cases in the line of README.md that links the page.
-fn readme(page: &str, count: usize) -> io::Result<()> {
-    let Some(file) = Path::new(page).ancestors().map(|f| f.join("README.md")).find(|f| f.exists()) else {
+/// The number of cases in the line of overview.md, beside the page, that links it.
+fn overview(page: &str, count: usize) -> io::Result<()> {
+    let file = Path::new(page).with_file_name("overview.md");
+    if !file.exists() {
         return Ok(());
-    };
+    }
     let text = fs::read_to_string(&file)?;
     let Some((before, rest)) = text.split_once("killed programs: ") else { return Ok(()) };
     let Some((_, after)) = rest.split_once(" cases |") else { return Ok(()) };
@@ -103,7 +104,7 @@ const TAIL: &str = "
 | stale | a result of other inputs was used again |
 
 **Files**: one word or line of a text, or one number, record or length of a binary file is changed, with checksums that are right again. So the damage reaches the code behind the
-checksums. **Keys and options**: every key of the tables of [scene.md](scene.md) and every option of `--help`, each with 14 values such as `nan`, `1e308`, an empty text, a device or a terminal's control
+checksums. **Keys and options**: every key of the tables of [scene.md](../reference/scene.md) and every option of `--help`, each with 14 values such as `nan`, `1e308`, an empty text, a device or a terminal's control
 sequence. **Further options**: every example of every tool (`tests/tests/tools/every_option`), whole and with as few options as it needs, with each further option of that tool that an example has. It counts as
 accepted if the output or what the tool prints changes with one of its values. Left out are options that only steer how a tool runs (threads, names of outputs), those listed with a reason in
 `tests/tests/faults/attack/silent/options.rs`, and calls whose output holds times. **Further keys**: every key of every scene of the test of keys (`tests/tests/tools/every_key`), left out where the scene runs

@@ -1,4 +1,4 @@
-//! Prints the table of docs/time-step.md on clumps: the true limit of stability over the bound, for blocky and plate-like clumps.
+//! Prints the table of docs/theory/time-step.md on clumps: the true limit of stability over the bound, for blocky and plate-like clumps.
 //!
 //! Members lie on a lattice in a periodic box, under their own pressure, and are joined to equal clumps, so that every wave of the box is
 //! among the motions. The limit is found by bisection in the engine, as in the tests of the time step.

@@ -1,4 +1,4 @@
-//! Soil with stones in a shear box, over packings and stresses: `rock_fill_study PLOT.svg CASE=FOLDER,FOLDER… …` prints tables and sentences for docs/rock-fill.md.
+//! Soil with stones in a shear box, over packings and stresses: `rock_fill_study PLOT.svg CASE=FOLDER,FOLDER… …` prints tables and sentences for docs/how-to/rock-fill.md.
 //!
 //! A folder is that of one packing, by `lab-test direct-shear --dir`, with `report.json` of lab-test, and in each specimen `grading.json` of dem-measure where
 //! there are bonds. Cases are named `soil`, or `kind content`, such as `bonded 0.4`.
@@ -17,7 +17,7 @@ use std::{env, fs};
 
 type Failure = Box<dyn Error>;
 
-/// Weibull's modulus of stones of bonded grains, and the power of their size with which their strength falls (docs/stones.md) [–].
+/// Weibull's modulus of stones of bonded grains, and the power of their size with which their strength falls (docs/evidence/stones.md) [–].
 const WEIBULL: f64 = 2.6;
 const MEASURED: f64 = -0.36;
 

@@ -1,4 +1,4 @@
-//! Modulus, Poisson's ratio and strength of compressed cylinders: `specimens_study PLOT.svg NAME=FOLDER,FOLDER… …` prints a table for docs/specimens.md.
+//! Modulus, Poisson's ratio and strength of compressed cylinders: `specimens_study PLOT.svg NAME=FOLDER,FOLDER… …` prints a table for docs/evidence/specimens.md.
 //!
 //! ```text
 //! σ = −F/A of the upper plate,  ε = shift/height       strength: the largest σ;  E: σ/ε at half of it

@@ -1,4 +1,4 @@
-//! The strengths of crushed stones as Weibull lines, and how they fall with size: `stones_study PLOT.svg STRENGTHS.csv…` prints tables for docs/stones.md.
+//! The strengths of crushed stones as Weibull lines, and how they fall with size: `stones_study PLOT.svg STRENGTHS.csv…` prints tables for docs/evidence/stones.md.
 //!
 //! ```text
 //! P(σ) = 1 − exp(−(σ/σ₀)^m)        m, σ₀ by maximum likelihood; intervals of m and σ₀: 95 %, by their asymptotic deviations 0.780 m/√n and 1.053 σ₀/(m √n)

@@ -2,7 +2,7 @@
 //! messages say to do, killed partners of a pipe.
 //!
 //! Each case is one call with bounded memory and time ([`case`]). `make -C pipelines attack` runs tens of thousands of them and writes
-//! docs/reliability.md; the test runs a short form with another seed. A seed gives the same cases on every machine.
+//! docs/evidence/reliability.md; the test runs a short form with another seed. A seed gives the same cases on every machine.
 
 pub mod caches;
 pub mod case;

@@ -1,11 +1,11 @@
-//! Every key of a scene, read from the tables of docs/scene.md, with each of fourteen values.
+//! Every key of a scene, read from the tables of docs/reference/scene.md, with each of fourteen values.
 
 use super::case::Case;
 use super::{files, values};
 use std::fs;
 use std::path::Path;
 
-/// A scene that has a table for every heading of docs/scene.md that goes together.
+/// A scene that has a table for every heading of docs/reference/scene.md that goes together.
 const SCENE: &str = r#"
 gravity = [0, 0, -9.81]
 [time]
@@ -57,7 +57,11 @@ servo = { direction = [0, 0, -1], force = 1, speed_limit = 0.1 }
 /// Keys as `--set` names them.
 pub fn keys() -> Vec<String> {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let docs = docs.ancestors().map(|d| d.join("docs/scene.md")).find(|d| d.exists()).expect("docs/scene.md");
+    let docs = docs
+        .ancestors()
+        .map(|d| d.join("docs/reference/scene.md"))
+        .find(|d| d.exists())
+        .expect("docs/reference/scene.md");
     let text = fs::read_to_string(docs).expect("text");
     let (mut table, mut inner, mut keys) = (String::new(), String::new(), Vec::new());
     for line in text.lines() {

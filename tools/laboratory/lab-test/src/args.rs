@@ -8,7 +8,7 @@ use std::path::PathBuf;
 const NOTES: &str = "SAMPLE.toml is a scene without walls, times and outputs: materials, contacts, bonds, and the grains as one [[fill]] \
     without shape and amount, or as packed [[particles]] (of stone-pack, or of a run). Walls are of the materials 'side' (smooth) and 'plate' \
     (as rough as the grains), where the sample defines none of these names.\n\
-    docs/lab-tests.md explains each test, its equations and columns.\n\n\
+    docs/how-to/lab-tests.md explains each test, its equations and columns.\n\n\
     Examples:\n\
     \x20 lab-test crush stone.toml --seeds 5 -o curves.csv --plot curves.svg --report crush.json\n\
     \x20 lab-test direct-shear soil.toml --stress '50 kPa' --print-scene\n\

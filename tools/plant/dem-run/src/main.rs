@@ -44,7 +44,7 @@ struct Args {
     /// End of the run [s], instead of time.until
     #[arg(long, value_name = "S")]
     until: Option<f64>,
-    /// Take densities, moduli and Poisson's ratios that a [[material]] leaves out from the table of materials, by its name (docs/scene.md)
+    /// Take densities, moduli and Poisson's ratios that a [[material]] leaves out from the table of materials, by its name (docs/reference/scene.md)
     #[arg(long)]
     materials: bool,
     /// Print the active effects, the keys that switch them on, their cost, and the pair that limits the time step
@@ -59,7 +59,7 @@ struct Args {
     /// With --resume: begin the output with what that run has written until its checkpoint, so that it holds the whole run
     #[arg(long)]
     whole: bool,
-    /// Have the steps made by a GPU, with the same bits: cuda, or cuda:1 for the second one; local has its program run here (docs/gpu.md)
+    /// Have the steps made by a GPU, with the same bits: cuda, or cuda:1 for the second one; local has its program run here (docs/how-to/gpu.md)
     #[arg(long, value_name = "DEVICE")]
     device: Option<Accelerator>,
     /// Write one JSON line to stderr with each frame: time, rate, particles, energy, time left

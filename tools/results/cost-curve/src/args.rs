@@ -15,7 +15,7 @@ const NOTES: &str = "KEY: any key of the scene (as for dem-run --set; * is every
     'VALUE of --MEASURE …': any value of its summary, or any of its columns as a profile \
     ('each VALUE of …' where both have it).\n\
     Points run one after another: other work on the machine, and --jobs, disturb the times.\n\
-    docs/accuracy.md explains errors and costs, and has examples.\n\n\
+    docs/evidence/accuracy.md explains errors and costs, and has examples.\n\n\
     Examples:\n\
     \x20 cost-curve scene.toml --vary safety=0.2,0.4 --measure bed-height --for 1% -o curve.svg\n\
     \x20 cost-curve scene.toml --vary safety=0.2,0.4 --measure bed-height --dry-run";

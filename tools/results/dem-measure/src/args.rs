@@ -11,7 +11,7 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
     cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE | mesh:FILE,units=mm | mesh:FILE,transform=MATRIX.txt | all (where no volume \
     is needed); a ! before a SHAPE means its outside. PLANE: px,py,pz,nx,ny,nz, with n in the direction of flow. \
     All lengths in metres.\n\
-    docs/measure.md defines each measure and its columns.\n\n\
+    docs/how-to/measure.md defines each measure and its columns.\n\n\
     Examples:\n\
     \x20 dem-measure run.mcap --profile --axis z --bins 5\n\
     \x20 dem-measure heap.mcap --repose --side x- --within box:-1,-1,0,1,1,0.5\n\

@@ -35,7 +35,7 @@ struct Args {
     /// Share of the volume that may stay outside all spheres: 0.02, or 2%
     #[arg(long, value_name = "SHARE", value_parser = share)]
     error: Option<f64>,
-    /// Print the measures of shape as JSON instead: volume, area, sieve size, sides of the smallest box, elongation, flatness, convexity, sphericity, roundness (docs/rock-fill.md)
+    /// Print the measures of shape as JSON instead: volume, area, sieve size, sides of the smallest box, elongation, flatness, convexity, sphericity, roundness (docs/how-to/rock-fill.md)
     #[arg(long, conflicts_with_all = ["method", "min_radius", "overlap", "distance", "name", "material", "given"])]
     measures: bool,
     /// How spheres are found

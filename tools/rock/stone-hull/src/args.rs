@@ -19,7 +19,7 @@ pub struct Args {
     /// Folder of their masks, NAME.png (stone-mask)
     #[arg(long, value_name = "DIR")]
     pub masks: PathBuf,
-    /// Turntable: camera, and turns with their tilts and steps (TOML, docs/photographs.md)
+    /// Turntable: camera, and turns with their tilts and steps (TOML, docs/how-to/photographs.md)
     #[arg(long, value_name = "FILE.toml")]
     pub turntable: Option<PathBuf>,
     /// Change focal length, axis, tilts and steps of --turntable a little until the silhouettes agree

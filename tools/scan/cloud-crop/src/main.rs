@@ -46,7 +46,7 @@ struct Args {
     /// Remove the points inside SHAPE
     #[arg(long, value_name = "SHAPE", value_parser = mesh::shape)]
     remove: Vec<Shape>,
-    /// Named regions to keep and to remove (docs/files.md)
+    /// Named regions to keep and to remove (docs/reference/files.md)
     #[arg(long, value_name = "FILE.toml")]
     regions: Option<PathBuf>,
     /// Remove points beyond the outer shape of the equipment and report them as parts (repeat: the shapes together enclose the equipment)

@@ -22,7 +22,7 @@ pub struct Args {
     pub input: cloud_cli::Input,
     #[command(flatten)]
     pub output: cloud_cli::CloudOutput,
-    /// Depth of the dents between neighbouring spheres [m], or a file of regions and wear (docs/wall-input.md)
+    /// Depth of the dents between neighbouring spheres [m], or a file of regions and wear (docs/reference/wall-input.md)
     #[arg(long, value_name = "M|FILE.toml", allow_hyphen_values = true)]
     roughness: Option<String>,
     /// Radii: solve (pair by pair), uniform, or a length [m]

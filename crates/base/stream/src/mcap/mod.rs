@@ -68,7 +68,7 @@ pub enum McapError {
     Points { topic: String, time_ns: u64, what: String },
     #[error(
         "MCAP: topic '{topic}': a message of {} s follows one of {} s: give it as a file, which is put in order, and not in a pipe; \
-         or write the messages in the order of their times (docs/files.md#mcap-in-the-order-of-time)", seconds(*time_ns), seconds(*after_ns)
+         or write the messages in the order of their times (docs/reference/files.md#mcap-in-the-order-of-time)", seconds(*time_ns), seconds(*after_ns)
     )]
     Order { topic: String, time_ns: u64, after_ns: u64 },
     #[error("MCAP: cannot write")]

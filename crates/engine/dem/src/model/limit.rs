@@ -1,4 +1,4 @@
-//! The largest stable time step. Derived in docs/time-step.md.
+//! The largest stable time step. Derived in docs/theory/time-step.md.
 //!
 //! ```text
 //! Δt(A, B) = 2/(√(A + B²) + B)              the root of A Δt²/4 + B Δt = 1

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The impact is that of the engine: its effects, its averaging over a kick, its integration. It depends on x alone: ω² = k/m* (Hooke), S/m* at the deepest
-//! overlap without damping (Hertz). What its dashpot books is matched at the same two x: β₁ and β₂ such that it is the energy that the impact loses. Between and below both points γ₁ and γ₂ leave less than 0.1 % (docs/time-step.md).
+//! overlap without damping (Hertz). What its dashpot books is matched at the same two x: β₁ and β₂ such that it is the energy that the impact loses. Between and below both points γ₁ and γ₂ leave less than 0.1 % (docs/theory/time-step.md).
 
 use crate::model::step_cause::root;
 use crate::setup::Sampling;

@@ -145,7 +145,7 @@ pub enum Step {
     Fixed(f64),
 }
 
-/// Which part of a step the force of a contact stands for: contacts begin and end inside a step (docs/time-step.md).
+/// Which part of a step the force of a contact stands for: contacts begin and end inside a step (docs/theory/time-step.md).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Sampling {
     /// The part in which both touch, from half a step before the instant to half a step after it; damping is matched to the step.

@@ -157,7 +157,7 @@ pub struct NormalLaw {
 /// Σ n nᵀ of the twelve contacts of a close packing [–].
 pub const ALONG: f64 = 4.0;
 
-/// What a spring and dashpot against relative turning add to A_r and B_r of docs/time-step.md.
+/// What a spring and dashpot against relative turning add to A_r and B_r of docs/theory/time-step.md.
 #[derive(Debug, Clone, Copy)]
 pub struct Turning {
     /// A_r of k_t/m* and s [1/s²].

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! Cundall & Strack (1979), Géotechnique 29(1), doi:10.1680/geot.1979.29.1.47; Mindlin (1949), J. Appl. Mech. 16. What
-//! grains pulled together are pressed by: Thornton (1991), J. Phys. D 24, doi:10.1088/0022-3727/24/11/007. Where F_p
-//! pulls, nothing holds. Comes after every effect that changes F_n.
+//! grains pulled together are pressed by: Thornton (1991), J. Phys. D 24, doi:10.1088/0022-3727/24/11/007. A contact
+//! with F_p < 0 carries no tangential force. Comes after every effect that changes F_n.
 
 use super::capped_spring::{CappedSpring, turned};
 use super::{

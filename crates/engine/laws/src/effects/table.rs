@@ -1,4 +1,4 @@
-//! The effects and their keys as tables for people: docs/scene.md holds them, and a test compares.
+//! The effects and their keys as tables for people: docs/reference/scene.md holds them, and a test compares.
 
 use super::{DESCRIPTIONS, Description, Key, keys, models};
 use alloc::borrow::ToOwned;

@@ -1,7 +1,7 @@
 //! Angle of repose: the surface of grains in a drum that turns.
 //!
 //! A slice of the drum, periodic along its axis y. Its wall has grooves of half a grain, so that the bed turns with it and does not slip as a whole. The
-//! surface falls towards x (docs/measure.md, bed slope).
+//! surface falls towards x (docs/how-to/measure.md, bed slope).
 
 use super::*;
 use crate::walls::PLATE;

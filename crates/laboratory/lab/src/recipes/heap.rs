@@ -6,7 +6,7 @@
 //!       ___/  \\___      heap on a plate with a rim of half a grain, which holds the first layer
 //! ```
 //! The plate limits the heap, so it does not run out flat: its flank is that of a heap that grains run down. What falls off lies on a floor below. The
-//! heap is measured in eight sectors (docs/measure.md, heap angle) when the grains have come to rest.
+//! heap is measured in eight sectors (docs/how-to/measure.md, heap angle) when the grains have come to rest.
 
 use super::*;
 use crate::walls::PLATE;

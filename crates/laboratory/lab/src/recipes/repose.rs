@@ -1,7 +1,7 @@
 //! Angle of repose: a cylinder of grains on a rough plate is lifted, and the grains run out to a heap.
 //!
 //! The cylinder is a tube without bottom. It is lifted slowly against the speed at which grains fall over its radius, and the heap is measured in eight
-//! sectors (docs/measure.md, heap angle) when the grains have come to rest.
+//! sectors (docs/how-to/measure.md, heap angle) when the grains have come to rest.
 
 use super::*;
 use crate::walls::{PLATE, SIDE};

@@ -72,7 +72,7 @@ pub enum Sampling {
 
 impl Sampling {
     /// Share of the energy exchanged beyond which what the time step makes stops a run that keeps the ledger [–]. At the default step and up to 0.95
-    /// of the critical one damped grains make at most 0.7 % (averaged); at the default step 2.3 % (sampled). docs/time-step.md has the scenes.
+    /// of the critical one damped grains make at most 0.7 % (averaged); at the default step 2.3 % (sampled). docs/theory/time-step.md has the scenes.
     pub fn most_energy(self) -> f64 {
         match self {
             Sampling::Averaged => 0.02,

@@ -26,7 +26,7 @@ pub use wall::*;
 
 use serde::Deserialize;
 
-/// A scene; docs/scene.md lists its keys. SI units.
+/// A scene; docs/reference/scene.md lists its keys. SI units.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SceneKeys {

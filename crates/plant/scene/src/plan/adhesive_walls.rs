@@ -34,7 +34,7 @@ impl PlanBuilder<'_> {
             if laws.iter().any(|law| meets(&law)) && is_denser(spheres, APART * largest) {
                 self.warnings.push(format!(
                     "wall '{}': its spheres are less than {} m apart, a fifth of the largest grain, and each adheres by itself: energy, pull-off and what caps \
-                     friction are those of too many contacts (docs/scene.md); draw this wall as mesh = \"…\", or give it spheres a quarter of a grain apart",
+                     friction are those of too many contacts (docs/reference/scene.md); draw this wall as mesh = \"…\", or give it spheres a quarter of a grain apart",
                     wall.name,
                     Shown(APART * largest)
                 ));

@@ -1,4 +1,4 @@
-//! The table and the picture of `docs/filling.md`.
+//! The table and the picture of `docs/evidence/holes.md`.
 
 use crate::bodies::Body;
 use crate::cuts::{Outcome, Score};

@@ -1,4 +1,4 @@
-//! Ten scenes on `dem-run` and on `dem-lammps`: a table for docs/lammps.md.
+//! Ten scenes on `dem-run` and on `dem-lammps`: a table for docs/how-to/lammps.md.
 //!
 //! usage: lammps_study FOLDER PAGE.md [SEEDS]   (the tools beside it; LAMMPS on the path)
 

@@ -24,7 +24,7 @@ bluenoise-sample scan.ply --spacing 0.012 --no-measures --report count.json -o e
 | `tile` | lays a prepared even pattern patch by patch and closes the seams by Poisson disk | dense scans. On coarse scans it keeps fewer points for the same spacing |
 | `grid` | the point nearest to each node of a grid along x, y, z | flows with one direction |
 
-The number of points differs from `--count` by at most 1 %. It is exact below 200, and with `eliminate`. `grid` takes the nearest count that a grid can have. A count that cannot be met prints a warning. `--keep-filled` keeps the points that `cloud-fill` added. A scan that is too sparse for the spacing is filled before: `cloud-fill --for-spacing` ([filling.md](filling.md#where-the-scan-is-sparse)).
+The number of points differs from `--count` by at most 1 %. It is exact below 200, and with `eliminate`. `grid` takes the nearest count that a grid can have. A count that cannot be met prints a warning. `--keep-filled` keeps the points that `cloud-fill` added. A scan that is too sparse for the spacing is filled before: `cloud-fill --for-spacing` ([filling.md](../reference/filling.md#where-the-scan-is-sparse)).
 
 `make -C pipelines sampling-study` writes this page. The tests `crates/scan/sampling/tests/laws.rs` check the guarantees."#;
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 const HEAD: &str = r#"# Walls of spheres
 
 What spacing, roughness and sampling do to wall friction, rebound, flow and leaks. Nearly all walls here are flat: whether the centres or the surfaces of their spheres are on the points
-([wall-input.md](wall-input.md#which-side-is-the-flow)) moves them as a whole and changes no number.
+([wall-input.md](../reference/wall-input.md#which-side-is-the-flow)) moves them as a whole and changes no number.
 
 ```sh
 make -C pipelines walls-study      # runs every simulation of this page and writes the page

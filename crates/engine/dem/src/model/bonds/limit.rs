@@ -1,4 +1,4 @@
-//! What bonds leave of the time step. Derived in docs/time-step.md.
+//! What bonds leave of the time step. Derived in docs/theory/time-step.md.
 //!
 //! ```text
 //! g:  along u (n, 0), twist (0, n), bending (0, e), shear (±e, −w L n × e)          for both e across n; springs k_n, k_t, k_b, k_s
