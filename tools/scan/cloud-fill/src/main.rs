@@ -7,7 +7,6 @@ use cloud::fill::Settings;
 use cloud::{Mesher, Method};
 use geom::number::positive;
 use geom::{Shape, Vec3, counted};
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 const ABOUT: &str = "A hole is a region inside the outline of the surface with a density of at most --below. The rim is not \
@@ -61,7 +60,7 @@ struct Args {
     ball: Vec<f64>,
     /// Write the meshes of the holes to FILE (PLY)
     #[arg(long, value_name = "FILE")]
-    mesh: Option<PathBuf>,
+    mesh: Option<cli::OutPath>,
     #[command(flatten)]
     seed: cli::Seed,
 }
