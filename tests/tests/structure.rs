@@ -139,9 +139,8 @@ fn rooms_are_small_and_in_order() {
     let height =
         |room: &str| order.iter().position(|name| name == room).unwrap_or_else(|| panic!("{room}: {pages}"));
     for (name, (room, used)) in &crates {
-        for other in used.iter().filter(|other| height(&crates[*other].0) > height(room)) {
-            panic!("{room}/{name} uses {other}, whose room stands above");
-        }
+        let above = used.iter().find(|other| height(&crates[*other].0) > height(room));
+        assert_eq!(above, None, "{room}/{name} uses a crate whose room stands above");
     }
     for of in ["crates", "tools"] {
         let mut count: BTreeMap<String, usize> = BTreeMap::new();
