@@ -41,7 +41,7 @@ struct Args {
     #[arg(long, value_name = "SHAPE", value_parser = mesh::shape)]
     region: Vec<Shape>,
     /// Where a scanner stood [m] (repeat for more): space that it looked through stays open
-    #[arg(long, value_name = "x,y,z", value_parser = cloud::seen::viewpoint, allow_hyphen_values = true)]
+    #[arg(long, value_name = "x,y,z", value_parser = cloud::points::viewpoint, allow_hyphen_values = true)]
     seen_from: Vec<Vec3>,
     /// Also fill holes between two surfaces, as between an edge and the floor behind it
     #[arg(long, conflicts_with = "seen_from")]
