@@ -90,7 +90,7 @@ pub use shape::Shape;
 #[cfg(not(target_arch = "nvptx64"))]
 pub use shown::{Shown, counted, counted_as};
 #[cfg(not(target_arch = "nvptx64"))]
-pub use spread::least_axis;
+pub use spread::{PrincipalAxes, least_axis};
 #[cfg(not(target_arch = "nvptx64"))]
 pub use transform::Transform;
 
