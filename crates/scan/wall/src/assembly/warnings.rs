@@ -1,11 +1,12 @@
 //! What a wall that was built leaves to be wished: leaks, sheets too close, sizes that do not fit the particles.
 
-use crate::build::{ROUNDED, WallReport, representative};
-use crate::bulge::Bulges;
-use crate::deep::{DEEP, DeepDents};
-
-use crate::sheets::{self, Sheets};
-use crate::{Radius, Representative, WallError, WallSettings, leak};
+use super::report::{WallReport, representative};
+use crate::radii::dents::{DEEP, DeepDents};
+use crate::radii::equation::ROUNDED;
+use crate::settings::{Radius, Representative, WallError, WallSettings};
+use crate::surface::bulge::Bulges;
+use crate::surface::leak;
+use crate::surface::sheets::{self, Sheets};
 use geom::star::Stars;
 use geom::{Shown, Vec3};
 

@@ -5,8 +5,8 @@
 //! `cloud-fill --for-spacing` does not fill: there neighbours are up to 3.2 S apart, and dents (3.2/1.35)² = 5.6 times the mean. A dent more
 //! than six times as deep as asked is where points are missing.
 
-use crate::pairs::Pairs;
-use crate::solve::{ChangedPair, changed};
+use super::pairs::Pairs;
+use super::solve::{ChangedPair, changed};
 use geom::Vec3;
 use serde::Serialize;
 

@@ -1,6 +1,8 @@
 //! The wall's columns: x y z radius, material, and further attributes.
 
-use crate::{Regions, Wall, WallError};
+use super::report::Wall;
+use crate::regions::Regions;
+use crate::settings::WallError;
 use stream::{Table, Values};
 
 impl Wall {

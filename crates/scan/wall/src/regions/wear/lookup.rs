@@ -19,46 +19,13 @@
 //! Between the entries ζ is linear in both; beyond the table the value at its edge is used, and the report counts these points. With a
 //! drawing, the wear is the distance of a point from the drawn surface [m]; with a run, that of the nearest wall sphere.
 
-mod places;
-mod table;
-
+use super::error::{Load, WearError};
+use super::places::Places;
+use super::table::{WearTable, place};
 use geom::mesh::{TriMesh, closest_point};
 use geom::{Boxes, Vec3};
-use places::Places;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use table::{WearTable, place};
-use thiserror::Error;
-
-/// What is wrong with a table of wear.
-#[derive(Debug, Error, Clone, PartialEq)]
-#[allow(missing_docs)]
-pub enum WearError {
-    #[error(
-        "wear: give one of measured = \"PROPERTY\", drawing = \"MESH\", value = NUMBER; {given} are given"
-    )]
-    WearSource { given: usize },
-    #[error("wear: along = {along:?} has no direction: give one, such as [1, 0, 0]")]
-    Along { along: [f64; 3] },
-    #[error("wear: {file}: {why}")]
-    File { file: String, why: String },
-    #[error("wear: {file}: line {line}: {what}: '{text}'")]
-    Line { file: String, line: usize, what: &'static str, text: String },
-    #[error(
-        "wear: run = \"{0}\": its column is not named: add measured = \"sliding_work\", and leave drawing and value out"
-    )]
-    RunColumn(String),
-    #[error("wear: value {0}: must be finite")]
-    Value(f64),
-    #[error(
-        "wear: the cloud has no property '{0}': name the one that holds the measurement; see the file's header"
-    )]
-    NoProperty(String),
-    #[error(
-        "wear: point {point} has no measurement ({found}), and the file has no `roughness` for such points: add it"
-    )]
-    NotMeasured { point: usize, found: f64 },
-}
 
 /// The section `[wear]` of a file.
 #[derive(Debug, Deserialize)]
@@ -105,9 +72,6 @@ pub struct WearReport {
     /// Least and largest roughness [m].
     pub roughness: [f64; 2],
 }
-
-/// Files beside the one that names them: text, and meshes.
-pub type Load<'a, T> = &'a dyn Fn(&str) -> Result<T, String>;
 
 impl Wear {
     pub(crate) fn new(section: Section, text: Load<String>, mesh: Load<TriMesh>) -> Result<Wear, WearError> {

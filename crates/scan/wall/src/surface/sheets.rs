@@ -13,8 +13,7 @@
 //!
 //! Even heights leave a quarter, heights of normal noise 0.36 and an edge a quarter, however rough the surface.
 
-use geom::{Grid, Quadratic, Vec3};
-use nalgebra::{Matrix3, SymmetricEigen};
+use geom::{Grid, PrincipalAxes, Quadratic, Vec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -72,11 +71,8 @@ fn apart(near: &[Vec3], spacing: f64) -> Option<f64> {
     if near.len() < FEWEST.0 {
         return None;
     }
-    let count = near.len() as f64;
-    let mean = near.iter().sum::<Vec3>() / count;
-    let spread: Matrix3<f64> = near.iter().map(|p| (p - mean) * (p - mean).transpose()).sum();
-    let eigen = SymmetricEigen::new(spread);
-    let normal: Vec3 = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into();
+    let principal = PrincipalAxes::of(near.iter());
+    let (mean, normal) = (principal.middle, principal.normal());
     let heights: Vec<(f64, Vec3)> = near.iter().map(|p| ((p - mean).dot(&normal), *p)).collect();
     let over = over_quadratic(&heights, &normal)?;
     let variance = |heights: &[(f64, Vec3)]| heights.iter().map(|h| h.0 * h.0).sum::<f64>();

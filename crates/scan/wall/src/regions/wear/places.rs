@@ -1,6 +1,6 @@
 //! Wear that a run measured, by place.
 
-use super::{Load, WearError};
+use super::error::{Load, WearError};
 use geom::{Grid, Vec3};
 use rayon::prelude::*;
 
@@ -57,21 +57,9 @@ impl Places {
         let first = ((high - low).norm() / (self.at.len() as f64).sqrt()).max(1e-9);
         let grid = Grid::new(&self.at, first);
         let wear = |p: &Vec3| {
-            let apart = |k: &u32| (self.at[*k as usize] - p).norm_squared();
-            // From outside of their box all of them are at most this far.
-            let most = (p - 0.5 * (low + high)).norm() + (high - low).norm() + first;
-            let mut reach = first;
-            loop {
-                let near = grid
-                    .within(&self.at, *p, reach)
-                    .min_by(|a, b| apart(a).total_cmp(&apart(b)).then(a.cmp(b)));
-                match near {
-                    Some(k) if apart(&k).sqrt() > self.reach[k as usize] => return f64::NAN,
-                    Some(k) => return self.wears[k as usize],
-                    None if reach > most => return f64::NAN,
-                    None => reach *= 2.0,
-                }
-            }
+            let near = grid.nearest(&self.at, *p, first).map(|k| k as usize);
+            let near = near.filter(|&k| (self.at[k] - p).norm() <= self.reach[k]);
+            near.map_or(f64::NAN, |k| self.wears[k])
         };
         points.par_iter().map(wear).collect()
     }

@@ -23,6 +23,8 @@
 //!
 //! which may have no root (r_i too large for this P), one, or more: the dent is deepest for nearly equal radii.
 
+/// A length that is too large by less than this factor is meant to be equal.
+pub(crate) const ROUNDED: f64 = 1.0 + 1e-9;
 /// A step of Newton's method this small, as a share, leaves nothing to a further one.
 const NEAR: f64 = 3e-9;
 

@@ -1,6 +1,6 @@
 //! The table of roughness over wear and position.
 
-use super::WearError;
+use super::error::WearError;
 
 /// Roughness over wear and position.
 #[derive(Debug, Clone)]

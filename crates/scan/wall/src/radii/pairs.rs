@@ -8,7 +8,7 @@
 //! an even lattice its edges, without diagonals. The second keeps pairs from reaching across the outline. With i at the origin the ball
 //! of i and j holds k where k² < k·j, and whatever is in it is nearer to i than j: i looks no further than 2 n_i, and sees every rival.
 
-use crate::build::ROUNDED;
+use super::equation::ROUNDED;
 use geom::Vec3;
 use multiversion::multiversion;
 use rayon::prelude::*;

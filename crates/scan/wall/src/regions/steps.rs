@@ -11,7 +11,7 @@
 //!
 //! A step has the value in its middle: the largest error is the difference of the two ends over twice the number of steps.
 
-use crate::regions::RegionsError;
+use super::error::RegionsError;
 use serde::{Deserialize, Serialize};
 
 /// Steps where none are given.

@@ -1,6 +1,6 @@
 //! Walls as MCAP: metadata `materials`, then one message on `/walls`.
 
-use crate::Regions;
+use crate::regions::Regions;
 use record::{FRAME, MaterialRecord, metadata, topic};
 use std::io::Write;
 use stream::Table;

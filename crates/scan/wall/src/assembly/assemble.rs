@@ -1,78 +1,20 @@
 //! Builds a wall: neighbours, radii, placement, leak check.
 
-use crate::bent;
-use crate::bulge::{self, Bulges};
-use crate::deep::{self, DeepDents};
-use crate::pairs::{FURTHEST, Pairs, REACH, pairs};
-use crate::sheets::Sheets;
-use crate::solve::{Changed, ChangedPair, Changes};
-use crate::warnings::{self, Built};
-use crate::{
-    Placement, Radius, Regions, Representative, WallError, WallSettings, equation, facing, leak, normals,
-    solve,
-};
+use super::report::{Wall, WallReport, range, representative};
+use super::warnings::{self, Built};
+use crate::radii::dents;
+use crate::radii::equation::{self, ROUNDED};
+use crate::radii::pairs::{FURTHEST, Pairs, REACH, pairs};
+use crate::radii::solve::{self, Changed, ChangedPair};
+use crate::regions::Regions;
+use crate::settings::{Placement, Radius, WallError, WallSettings};
+use crate::surface::{bulge, curvature, facing, normals};
 use geom::Vec3;
 use geom::star::{Stars, stars};
 use sampling::cells::Cells;
-use serde::Serialize;
 
 /// Largest circle through three points that is distinguished from the outline of the wall, in nearest distances.
 const SQUARE: f64 = 3.0;
-/// A length that is too large by less than this factor is meant to be equal.
-pub(crate) const ROUNDED: f64 = 1.0 + 1e-9;
-
-/// Wall spheres.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Wall {
-    /// Centres [m], in the order of the points.
-    pub centres: Vec<Vec3>,
-    /// Radii [m].
-    pub radii: Vec<f64>,
-    /// Region of each sphere; 0 outside of all.
-    pub regions: Vec<u16>,
-}
-
-/// What was built, for the report.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct WallReport {
-    /// Spheres.
-    pub spheres: usize,
-    /// Representative distance of neighbours P [m].
-    pub spacing: f64,
-    /// Shortest and longest distance of a pair [m].
-    pub spacing_range: [f64; 2],
-    /// Representative roughness ζ [m]: the one asked for, or what the given radius makes.
-    pub roughness: f64,
-    /// Least, mean and largest radius [m].
-    pub radius_range: [f64; 3],
-    /// Longest side of the box around the points [m].
-    pub width: f64,
-    /// How far the least and the most of the wall stands in front of the points [m]: the radii where the centres are on the points, `None` where the
-    /// surface is.
-    pub in_front: Option<[f64; 2]>,
-    /// A radius of curvature that a quarter of the surface falls below [m], where the wall stands in front of it.
-    pub curvature_radius: Option<f64>,
-    /// How far the dents are from those asked for.
-    pub changes: Changes,
-    /// The pairs of which `changes` tells, where they were asked for.
-    #[serde(skip)]
-    pub changed: Vec<Changed>,
-    /// Where the wall cannot have the roughness that was asked for; `None` when nowhere.
-    pub deep_dents: Option<DeepDents>,
-    /// The widest gap; `None` when not asked for or when there is none.
-    pub widest_gap: Option<leak::Gap>,
-    /// Gaps that the smallest particle passes.
-    pub leaks: usize,
-    /// Gaps wider than this [m] between three points cannot be distinguished from the outline.
-    pub gaps_up_to: f64,
-    /// Where two sheets of the surface are closer than the spacing; `None` when nowhere.
-    pub sheets: Option<Sheets>,
-    /// Where spheres on the points' other side stick out; `None` where the centres are on the points, and when nowhere.
-    pub bulges: Option<Bulges>,
-    /// What the user should know.
-    pub warnings: Vec<String>,
-}
-
 /// One sphere for each point [m], all finite.
 ///
 /// # Errors
@@ -104,12 +46,12 @@ pub fn build(
         roughness: zeta_all,
         radius_range: [range(&radii)[0], radii.iter().sum::<f64>() / radii.len() as f64, range(&radii)[1]],
         width: width(points),
-        curvature_radius: if stands_in_front { bent::radius(&cells, spacing) } else { None },
+        curvature_radius: if stands_in_front { curvature::radius(&cells, spacing) } else { None },
         in_front: stands_in_front.then(|| range(&radii)),
         changes,
         changed: if settings.list_changes { list(&cells, &found, &asked, &radii) } else { Vec::new() },
         deep_dents: if is_asked && !settings.of_drawing {
-            deep::find(&cells.points, &found, &asked, &radii)
+            dents::find(&cells.points, &found, &asked, &radii)
         } else {
             None
         },
@@ -299,18 +241,4 @@ fn place(
 fn width(points: &[Vec3]) -> f64 {
     let (low, high) = geom::grid::bounds(points);
     (high - low).max()
-}
-
-pub(crate) fn representative(values: &[f64], which: Representative) -> f64 {
-    let middle = values.len() / 2;
-    match which {
-        // The mean of equal numbers is that number, not one beside it.
-        Representative::Mean if range(values)[0] == range(values)[1] => values[0],
-        Representative::Mean => values.iter().sum::<f64>() / values.len() as f64,
-        Representative::Median => *values.to_vec().select_nth_unstable_by(middle, f64::total_cmp).1,
-    }
-}
-
-fn range(values: &[f64]) -> [f64; 2] {
-    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], &v| [lo.min(v), hi.max(v)])
 }

@@ -12,8 +12,7 @@
 //! radius and r̄, and takes the one with the smallest sum. Visits go by colours (neighbours differ in colour). So
 //! points of one colour can be visited at once, and the result does not depend on threads.
 
-use crate::build::ROUNDED;
-use crate::equation::{Beside, LANES, dent, partners};
+use super::equation::{Beside, LANES, ROUNDED, dent, partners};
 use multiversion::multiversion;
 use rayon::prelude::*;
 use serde::Serialize;

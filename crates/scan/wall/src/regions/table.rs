@@ -12,20 +12,20 @@
 //! [[region]]                     # points by a column of the cloud: a class, a colour, an intensity
 //! column = "classification"
 //! values = [6, 6]                # smallest and largest value, or one value
-//! friction = 0.8                # or its values at the two ends: see [`crate::steps`]
+//! friction = 0.8                # or its values at the two ends: see [`crate::regions::steps`]
 //! ```
 //!
-//! With a section `[wear]` (see [`crate::wear`]) the roughness of points that no region with a roughness of its own holds comes from a
+//! With a section `[wear]` (see [`crate::regions::wear`]) the roughness of points that no region with a roughness of its own holds comes from a
 //! table of wear and position.
 
-use crate::attributes::{AttributeError, check_material, check_velocity};
-use crate::steps::{OneOrTwo, Region, Stepped};
-use crate::wear::{self, Wear, WearError, WearReport};
+use super::attributes::{AttributeError, check_material, check_velocity};
+use super::error::RegionsError;
+use super::steps::{OneOrTwo, Region, Stepped};
+use super::wear::{self, Wear, WearReport};
 use geom::{Vec3, mesh::TriMesh, shape::Shape};
 use rayon::prelude::*;
 use record::MaterialRecord;
 use serde::Deserialize;
-use thiserror::Error;
 
 /// What a region's surface is like.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,47 +75,6 @@ struct ColumnRange {
     whole: [f64; 2],
     /// Number and name of the region, for messages.
     place: String,
-}
-
-/// Why a file is no table of regions.
-#[derive(Debug, Error)]
-#[allow(missing_docs)]
-pub enum RegionsError {
-    #[error("{0}")]
-    Toml(#[from] toml::de::Error),
-    #[error(transparent)]
-    Wear(#[from] WearError),
-    #[error("region {number} '{name}': {source}")]
-    Shape { number: usize, name: String, source: Box<geom::shape::ShapeError> },
-    #[error("{place}: roughness {value} m: must be positive")]
-    Roughness { place: String, value: f64 },
-    #[error(transparent)]
-    Attribute(#[from] AttributeError),
-    #[error(
-        "{place}: give shape, or column and values, or all three: without them the region holds no point"
-    )]
-    NoPlace { place: String },
-    #[error("{place}: {given} without {missing}: column and values choose points together")]
-    HalfColumn { place: String, given: &'static str, missing: &'static str },
-    #[error("{place}: values = {values:?}: give the smallest, then the largest value")]
-    Values { place: String, values: [f64; 2] },
-    #[error("{place}: the cloud has no property '{column}': see the file's header")]
-    NoColumn { place: String, column: String },
-    #[error(
-        "{place}: no point has '{column}' from {} to {}; its values are {} to {}: the region would change nothing",
-        values[0], values[1], found[0], found[1]
-    )]
-    NoneInRange { place: String, column: String, values: [f64; 2], found: [f64; 2] },
-    #[error(
-        "{place}: {property} = [A, B] changes along a column: give column and values = [smallest, largest], or one value"
-    )]
-    AlongNothing { place: String, property: &'static str },
-    #[error("{place}: steps changes nothing: no property has two values, such as friction = [0.3, 0.8]")]
-    StepsOfNothing { place: String },
-    #[error("{place}: steps = {steps}: must be 2 to {most}")]
-    Steps { place: String, steps: u32, most: u32 },
-    #[error("more than 65535 regions")]
-    TooMany,
 }
 
 #[derive(Deserialize)]

@@ -1,6 +1,6 @@
 //! Whether a direction towards the flow tells the side of a surface.
 
-use crate::WallError;
+use crate::settings::WallError;
 use geom::Vec3;
 
 /// Part of the surface [–] that lies most squarely to the direction, and decides.
