@@ -10,7 +10,7 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
         return;
     }
     let mut rules = cloud::crop::Rules::default();
-    let _ = cloud::regions::add_regions(&mut rules, text, Path::new("/nowhere"));
+    let _ = cloud::crop::add_regions(&mut rules, text, Path::new("/nowhere"));
     let material = record::MaterialRecord { name: "steel".to_owned(), ..Default::default() };
     let none = |_: &str| Err("no meshes here".to_owned());
     let _ = wall::Regions::parse(text, material, Vec3::zeros(), &none, &|_| Ok(text.to_owned()));

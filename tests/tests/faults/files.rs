@@ -40,7 +40,7 @@ fn text(bytes: &[u8]) -> bool {
     let mut rules = cloud::crop::Rules::default();
     scene::Scene::new("s.toml", toml.to_owned(), &[set.to_owned()], here).is_ok()
         | geom::prism::Prism::from_json(text).is_ok()
-        | cloud::regions::add_regions(&mut rules, text, here).is_ok()
+        | cloud::crop::add_regions(&mut rules, text, here).is_ok()
         | wall::Regions::parse(text, material, geom::Vec3::zeros(), &none, &|_| Ok(text.to_owned())).is_ok()
         | geom::Shape::parse(text, &none).is_ok()
         | text.parse::<geom::Plane>().is_ok()

@@ -147,7 +147,7 @@ fn rooms_are_small_and_in_order() {
         |room: &str| order.iter().position(|name| name == room).unwrap_or_else(|| panic!("{room}: {pages}"));
     for (name, (room, used)) in &crates {
         let above = used.iter().find(|other| height(&crates[*other].0) > height(room));
-        assert!(above.is_none(), "{room}/{name} uses {above:?}, whose room stands above");
+        assert_eq!(above, None, "{room}/{name} uses a crate whose room stands above");
     }
     for of in ["crates", "tools"] {
         let mut count: BTreeMap<String, usize> = BTreeMap::new();

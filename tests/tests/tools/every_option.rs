@@ -2,6 +2,7 @@
 
 mod examples;
 pub mod files;
+mod overwritten;
 mod shapes;
 mod unused;
 

@@ -1,39 +1,23 @@
 //! Refuses outputs that would replace an input of the same call, or each other.
 
 use crate::{
-    Source,
+    MaybeFile, OutPath, Source,
     exit::usage,
+    placing::Matrix,
     target::{folder, target},
 };
 use anyhow::Context;
 use clap::{Arg, ArgMatches, Command};
 use std::{
+    any::TypeId,
+    ffi::OsStr,
     path::{Path, PathBuf},
     sync::OnceLock,
 };
 
-/// Options that name a file to write, in any tool: id and flag. None of them changes the result.
-const OUTPUTS: [(&str, &str); 15] = [
-    ("output", "-o"),
-    ("report", "--report"),
-    ("plot", "--plot"),
-    ("changes", "--changes"),
-    ("mesh", "--mesh"),
-    ("words", "--words"),
-    ("places", "--places"),
-    ("surfaces", "--surfaces"),
-    ("rigid", "--rigid"),
-    ("sheet", "--sheet"),
-    ("jobs_file", "--jobs-file"),
-    ("samples", "--samples"),
-    ("page", "--page"),
-    ("design", "--design"),
-    ("write_deck", "--write-deck"),
-];
-
 /// A file that the running tool will write.
 struct OutputFile {
-    flag: &'static str,
+    flag: String,
     path: PathBuf,
     /// Its one name.
     file: PathBuf,
@@ -46,10 +30,10 @@ static WRITTEN: OnceLock<Vec<OutputFile>> = OnceLock::new();
 /// # Errors
 /// Wrong usage.
 pub(crate) fn refuse(command: &Command, matches: &ArgMatches) -> anyhow::Result<()> {
-    let outputs = outputs(matches);
+    let outputs = outputs(command, matches);
     for (n, later) in outputs.iter().enumerate() {
         if let Some(earlier) = outputs[..n].iter().find(|earlier| earlier.file == later.file) {
-            let (flag, path) = (later.flag, later.path.display());
+            let (flag, path) = (&later.flag, later.path.display());
             return Err(usage(format!("{flag} {path} is also {}: choose another name", earlier.flag)));
         }
     }
@@ -91,38 +75,48 @@ fn against(outputs: &[OutputFile], inputs: impl IntoIterator<Item = PathBuf>) ->
     Ok(())
 }
 
-fn outputs(matches: &ArgMatches) -> Vec<OutputFile> {
-    let named = |&(id, flag): &(&str, &'static str)| {
-        let path = matches.try_get_one::<PathBuf>(id).ok().flatten()?.clone();
+/// The files that the command line names for writing, the main output first.
+fn outputs(command: &Command, matches: &ArgMatches) -> Vec<OutputFile> {
+    let named = |argument: &Arg| {
+        let path = matches.try_get_one::<OutPath>(argument.get_id().as_str()).ok().flatten()?.to_path_buf();
+        let flag = match (argument.get_short(), argument.get_long()) {
+            (Some(short), _) => format!("-{short}"),
+            (None, long) => format!("--{}", long.unwrap_or_default()),
+        };
         let file = if flag == "-o" && path == Path::new("-") { None } else { written(&path) };
         file.map(|file| OutputFile { flag, path, file })
     };
-    OUTPUTS.iter().filter_map(named).collect()
+    let mut all: Vec<OutputFile> =
+        command.get_arguments().filter(|a| is_output(a)).filter_map(named).collect();
+    all.sort_by_key(|output| output.flag != "-o");
+    all
 }
 
-/// Whether an argument names a file to write. What has no flag is an input, whatever its name.
+/// Whether the value of an argument has this type.
+fn holds<T: 'static>(argument: &Arg) -> bool {
+    argument.get_value_parser().type_id() == TypeId::of::<T>()
+}
+
+/// Whether an argument names a file or folder to write.
 pub(crate) fn is_output(argument: &Arg) -> bool {
-    !argument.is_positional() && OUTPUTS.iter().any(|output| output.0 == argument.get_id().as_str())
+    holds::<OutPath>(argument)
 }
 
 /// The files that an argument names for reading; what is none does no harm.
 fn read_by(argument: &Arg, matches: &ArgMatches) -> Vec<PathBuf> {
-    let id = argument.get_id().as_str();
-    if is_output(argument) {
-        return Vec::new();
-    }
-    let values = matches.try_get_raw(id).ok().flatten().into_iter().flatten();
-    let whole = argument.is_positional()
-        || matches!(matches.try_get_many::<Source>(id), Ok(Some(_)))
-        || argument.get_value_names().is_some_and(|names| names.iter().any(|name| name.contains("FILE")));
-    let path = |value: &std::ffi::OsStr| match whole {
-        true => vec![PathBuf::from(value)],
-        false => {
-            let text = value.to_str().unwrap_or_default().trim();
-            geom::shape::files_of(text).into_iter().map(PathBuf::from).collect()
+    let values = matches.try_get_raw(argument.get_id().as_str()).ok().flatten().into_iter().flatten();
+    let is_path = holds::<Source>(argument) || holds::<PathBuf>(argument) || argument.is_positional();
+    let may_be = holds::<MaybeFile>(argument) || holds::<Matrix>(argument);
+    let paths = |value: &OsStr| -> Vec<PathBuf> {
+        let text = value.to_str().unwrap_or_default().trim();
+        match (is_output(argument), is_path, may_be) {
+            (true, _, _) => Vec::new(),
+            (_, true, _) => vec![PathBuf::from(value)],
+            (_, _, true) => MaybeFile::names(text).map(PathBuf::from).collect(),
+            _ => geom::shape::files_of(text).into_iter().map(PathBuf::from).collect(),
         }
     };
-    values.flat_map(path).collect()
+    values.flat_map(paths).collect()
 }
 
 /// The one name of a file; devices and pipes are not replaced by an output and have none.
@@ -142,21 +136,31 @@ fn written(path: &Path) -> Option<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clap::value_parser;
 
     /// `stone-clump MESH` reads what `cloud-fill --mesh` writes.
     #[test]
-    fn an_argument_without_a_flag_is_read_whatever_its_name() {
-        let read = |argument: Arg, given: [&str; 2]| {
-            let command = Command::new("tool").arg(argument.value_parser(clap::value_parser!(PathBuf)));
-            let given = [&["tool"], &given[..]].concat().into_iter().filter(|word| !word.is_empty());
-            let matches = command.clone().try_get_matches_from(given).unwrap();
-            command.get_arguments().flat_map(|a| read_by(a, &matches)).collect::<Vec<_>>()
+    fn the_type_of_a_value_tells_what_is_read_and_what_is_written() {
+        let mesh = || Arg::new("mesh");
+        let read = |argument: Arg, given: &[&str]| {
+            let command = Command::new("tool").arg(argument);
+            let matches = command.clone().try_get_matches_from([&["tool"][..], given].concat()).unwrap();
+            let written = outputs(&command, &matches).len();
+            (command.get_arguments().flat_map(|a| read_by(a, &matches)).collect::<Vec<_>>(), written)
         };
-        assert_eq!(read(Arg::new("mesh"), ["stone.ply", ""]), [Path::new("stone.ply")]);
-        assert!(read(Arg::new("mesh").long("mesh").value_name("FILE"), ["--mesh", "stone.ply"]).is_empty());
+        let stone = || vec![PathBuf::from("stone.ply")];
+        assert_eq!(read(mesh().value_parser(value_parser!(PathBuf)), &["stone.ply"]), (stone(), 0));
+        let option = || mesh().long("mesh");
         assert_eq!(
-            read(Arg::new("other").long("other").value_name("FILE"), ["--other", "a.ply"]),
-            [Path::new("a.ply")]
+            read(option().value_parser(value_parser!(OutPath)), &["--mesh", "stone.ply"]),
+            (vec![], 1)
         );
+        assert_eq!(
+            read(option().value_parser(value_parser!(PathBuf)), &["--mesh", "stone.ply"]),
+            (stone(), 0)
+        );
+        let (files, _) = read(option().value_parser(value_parser!(MaybeFile)), &["--mesh", "a=stone.ply"]);
+        assert_eq!(files[1..], stone());
+        assert_eq!(read(option(), &["--mesh", "stone.ply"]), (vec![], 0));
     }
 }

@@ -1,5 +1,6 @@
 //! The command line as data, from which pipelines/pages makes man pages and completions: the tools need not carry code for either.
 
+use crate::clash;
 use clap::{Arg, ArgAction, Command};
 use serde_json::{Value, json};
 
@@ -41,6 +42,7 @@ fn argument(argument: &Arg) -> Value {
         "short": argument.get_short(),
         "help": argument.get_long_help().or(argument.get_help()).map(ToString::to_string),
         "takes_value": takes_value,
+        "writes": clash::is_output(argument),
         "value_names": names.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "values": values.collect::<Vec<_>>(),
         "defaults": default(argument),

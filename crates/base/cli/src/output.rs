@@ -1,6 +1,7 @@
 //! Outputs: stdout, or a file that appears under its name only when it is whole.
 
 use crate::{
+    OutPath,
     exit::usage,
     part::{Keep, PartFile},
     signals, stdout,
@@ -34,7 +35,7 @@ pub(crate) fn widen(stream: &impl std::os::fd::AsFd) {
 pub struct Output {
     /// Write to FILE instead of stdout; FILE appears when it is complete
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
-    pub file: Option<PathBuf>,
+    pub file: Option<OutPath>,
 }
 
 impl Output {

@@ -20,7 +20,7 @@ pub struct Placing {
 
 /// A matrix of the command line.
 #[derive(Debug, Clone)]
-struct Matrix {
+pub(crate) struct Matrix {
     transform: Transform,
     /// Its file and the hash of it; none of numbers on the command line.
     file: Option<(String, String)>,

@@ -1,7 +1,7 @@
 //! How every tool starts and ends.
 
 use crate::{
-    Report, Source, Stopped, clash, describe,
+    OutPath, Report, Source, Stopped, clash, describe,
     exit::{self, code, one_line, reader_closed_the_pipe},
     memory,
     output::OutputStream,
@@ -17,7 +17,7 @@ use serde_json::{Map, Value, json};
 use std::{
     io::{ErrorKind, Write},
     num::NonZeroUsize,
-    path::{Path, PathBuf},
+    path::Path,
     process::ExitCode,
     sync::{Mutex, OnceLock},
     time::Instant,
@@ -36,7 +36,7 @@ pub struct Common {
     pub threads: Option<NonZeroUsize>,
     /// Write a report to FILE (JSON)
     #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
+    pub report: Option<OutPath>,
 }
 
 /// `--seed N`, for tools that use random numbers.

@@ -194,6 +194,21 @@ impl Grid {
             .flat_map(|run| self.order[run].iter().copied())
             .filter(move |&i| (points[i as usize] - centre).norm_squared() <= radius * radius)
     }
+
+    /// Index of the one of the `points` (those the grid was made of) nearest to `position` [m], the lowest of several; sought within `first` [m] of it, then
+    /// within twice that, and so on. `None` where there are no points, or the position is not finite.
+    pub fn nearest(&self, points: &[Vec3], position: Vec3, first: f64) -> Option<u32> {
+        let square = |i: u32| (points[i as usize] - position).norm_squared();
+        let mut reach = first;
+        while reach.is_finite() {
+            let found = self.within(points, position, reach).map(|i| (square(i), i));
+            if let Some((_, i)) = found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) {
+                return Some(i);
+            }
+            reach *= 2.0;
+        }
+        None
+    }
 }
 
 /// Cells at least `cell` [m] wide over the box of so many points from its lowest to its highest corner [m], in blocks, as cubic as the box allows, that

@@ -40,7 +40,7 @@ pub use plane::Plane;
 pub use primitives::{Lattice, Shown, Vec3, counted, counted_as};
 pub use quadratic::Quadratic;
 pub use shape::Shape;
-pub use spread::least_axis;
+pub use spread::{PrincipalAxes, least_axis};
 pub use transform::Transform;
 
 /// Numbers beyond this are no measures: squares and cubes of what is below stay finite.

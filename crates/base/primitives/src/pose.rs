@@ -113,7 +113,7 @@ impl Pose {
         Pose { shift: self.shift + by, velocity: self.velocity + speed, ..self }
     }
 
-    /// The way [m] from t = 0 of the point about which the motion is told: the shift without the turn.
+    /// The way [m] from t = 0 of the point about which it moves: the shift without the turn.
     pub fn shift(&self) -> Vec3 {
         self.shift
     }

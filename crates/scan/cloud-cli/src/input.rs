@@ -5,7 +5,7 @@ use anyhow::Context;
 use cli::{Lengths, Placing, Source};
 use cloud::Cloud;
 use cloud::points::ReadWarning;
-use cloud::units::UnitWarning;
+use cloud::points::units::UnitWarning;
 use std::io::Read;
 use stream::ply::Opened;
 
@@ -32,7 +32,7 @@ impl Input {
         self.cloud.to_string()
     }
 
-    /// Opens the stream.
+    /// Opens the cloud as a stream of bytes, for a tool that looks at them first.
     ///
     /// # Errors
     /// As [`Source::open`].
@@ -73,7 +73,7 @@ impl Input {
     /// # Errors
     /// As [`Input::read_cloud`].
     pub fn read_places(&self) -> anyhow::Result<Cloud> {
-        let (cloud, left_out) = cloud::places::without_crowds(self.read_cloud()?);
+        let (cloud, left_out) = cloud::points::without_crowds(self.read_cloud()?);
         if left_out > 0 {
             let repeated = geom::counted_as(left_out, "point", ["is", "are"]);
             cli::warn(&format!("{}: {repeated} left out that lie where another one lies", self.name()));
@@ -125,11 +125,11 @@ impl Input {
         }
         // Digits that are missing in the file are missing where it is moved to, too; places are named where they are then.
         let is_short = |w: &UnitWarning| matches!(w, UnitWarning::Short { .. });
-        let mut found = cloud::units::warnings(&cloud);
+        let mut found = cloud::points::units::warnings(&cloud);
         if self.placing.transform().is_some() {
             found.retain(is_short);
             place(&mut cloud, &self.placing, &self.name());
-            found.extend(cloud::units::warnings(&cloud));
+            found.extend(cloud::points::units::warnings(&cloud));
         }
         self.warn_about(&found);
         cloud

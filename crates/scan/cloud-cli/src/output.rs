@@ -8,7 +8,7 @@ use stream::ply::Encoding;
 /// Where a tool writes a cloud: flatten it into the arguments of a tool that writes PLY.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct CloudOutput {
-    /// File or stdout.
+    /// The file, or stdout where none is named.
     #[command(flatten)]
     pub to: Output,
     /// Write PLY as text

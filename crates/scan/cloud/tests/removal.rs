@@ -132,7 +132,7 @@ fn ground_keeps_what_stands_on_it() {
         ([4.0, 4.0, 2.0, 2.0, 1.0], 30, "3,0.05"),
     ] {
         let points = on_floor(thing, strays);
-        let above = cloud::ground::above(&points, &rule.parse().unwrap()).unwrap().rows;
+        let above = cloud::crop::ground::above(&points, &rule.parse().unwrap()).unwrap().rows;
         let whole = above.iter().filter(|r| **r < 3000).count();
         let floor = above.len() - whole - strays;
         assert!(
@@ -157,7 +157,7 @@ fn ground_follows_slopes() {
     points.extend((0..4000).map(|_| thing()).collect::<Vec<_>>());
     let equipment = points.len();
     points.extend([Vec3::new(7.0, 2.0, -4.0), Vec3::new(2.0, 2.0, 60.0)]);
-    let above = |rule: &str| cloud::ground::above(&points, &rule.parse().unwrap());
+    let above = |rule: &str| cloud::crop::ground::above(&points, &rule.parse().unwrap());
     let rows = above("2,0.05").unwrap().rows;
     assert_eq!(rows.iter().filter(|r| (on_ground..equipment).contains(&(**r as usize))).count(), 4000);
     assert!(rows.contains(&(equipment as u32)) && rows.contains(&(equipment as u32 + 1)));
@@ -166,7 +166,8 @@ fn ground_follows_slopes() {
     // A ridge stands on the ground if that is less steep.
     let ridge = |p: &Vec3| Vec3::new(p.x, p.y, -0.5 * (p.x - 5.0).abs());
     let ridge: Vec<Vec3> = points[..on_ground].iter().map(ridge).collect();
-    let of_ridge = |rule: &str| cloud::ground::above(&ridge, &rule.parse().unwrap()).unwrap().rows.len();
+    let of_ridge =
+        |rule: &str| cloud::crop::ground::above(&ridge, &rule.parse().unwrap()).unwrap().rows.len();
     let [gentle, steep] = ["4,0.02,0.01", "4,0.02,0.5"].map(of_ridge);
     assert!(steep < 400 && gentle > 4_000, "{steep} {gentle}");
     let refused = above("0.1,0.05").unwrap_err().to_string();
@@ -194,7 +195,7 @@ fn rules_that_cannot_judge_say_so() {
     let refused = crop(&of_points(points), &scattered("0.3,0.1")).unwrap_err().to_string();
     assert!(refused.contains("the cloud spans 9e8 m") || refused.contains("spans 900000000 m"), "{refused}");
     for text in ["5e-324,0.1", "0.1", "0.1,0.4", "-1,0.1"] {
-        assert!(text.parse::<cloud::scatter::Scattered>().is_err(), "{text}");
+        assert!(text.parse::<cloud::crop::scatter::Scattered>().is_err(), "{text}");
     }
 }
 

@@ -1,5 +1,7 @@
 //! Properties of scans beside the coordinates: carried on under their names, or named where they are not.
 
+mod geotiff;
+
 use cloud::points::ReadWarning;
 use cloud::{Cloud, from_bytes};
 use e57::{Record, RecordDataType, RecordName, RecordValue as Value};
@@ -110,20 +112,14 @@ fn e57_properties_without_room_are_named() {
 }
 
 /// A LAS file with a well-known text, or with keys of GeoTIFF.
-fn las(text: Option<&str>, keys: &[[u16; 4]]) -> Vec<u8> {
+fn las(text: Option<&str>, keys: &[[u16; 2]]) -> Vec<u8> {
     let mut builder = las::Builder::from((1, 4));
     builder.point_format = las::point::Format::new(6).unwrap();
-    let (record_id, data) = match text {
-        Some(text) => (2112, text.as_bytes().to_vec()),
-        None => {
-            let head = [1, 1, 0, keys.len() as u16];
-            let numbers = head.iter().chain(keys.iter().flatten());
-            (34735, numbers.flat_map(|v| v.to_le_bytes()).collect())
-        }
-    };
     builder.has_wkt_crs = text.is_some();
-    let user_id = "LASF_Projection".to_owned();
-    builder.vlrs.push(las::Vlr { user_id, record_id, description: String::new(), data });
+    builder.vlrs.push(match text {
+        Some(text) => las::Vlr { record_id: 2112, data: text.as_bytes().to_vec(), ..geotiff::record(&[]) },
+        None => geotiff::record(keys),
+    });
     let mut writer = las::Writer::new(Cursor::new(Vec::new()), builder.into_header().unwrap()).unwrap();
     let point = las::Point { gps_time: Some(0.0), ..las::Point::default() };
     writer.write_point(point).unwrap();
@@ -132,7 +128,7 @@ fn las(text: Option<&str>, keys: &[[u16; 4]]) -> Vec<u8> {
 
 #[test]
 fn las_in_feet_says_so() {
-    let warnings = |text, keys: &[[u16; 4]]| from_bytes(las(text, keys)).unwrap().warnings;
+    let warnings = |text, keys: &[[u16; 2]]| from_bytes(las(text, keys)).unwrap().warnings;
     let state = r#"PROJCS["Texas",GEOGCS["NAD83",UNIT["degree",0.0174]],UNIT["US survey foot",0.3048006]]"#;
     let [ReadWarning::Unit(unit)] = &warnings(Some(state), &[])[..] else { panic!("a unit") };
     assert_eq!((unit.name.as_str(), unit.metres), ("US survey foot", 0.3048006));
@@ -144,9 +140,7 @@ fn las_in_feet_says_so() {
     let [ReadWarning::TwoUnits { vertical, .. }] = &warnings(Some(&both), &[])[..] else { panic!("two") };
     assert_eq!(vertical.metres, 1.0);
     // Projected, in international feet.
-    let [ReadWarning::Unit(unit)] = &warnings(None, &[[1024, 0, 1, 1], [3076, 0, 1, 9002]])[..] else {
-        panic!("a unit")
-    };
+    let [ReadWarning::Unit(unit)] = &warnings(None, &[[1024, 1], [3076, 9002]])[..] else { panic!("a unit") };
     assert_eq!(unit.metres, 0.3048);
-    assert!(warnings(None, &[[1024, 0, 1, 1], [3076, 0, 1, 9001]]).is_empty());
+    assert!(warnings(None, &[[1024, 1], [3076, 9001]]).is_empty());
 }

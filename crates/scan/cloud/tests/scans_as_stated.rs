@@ -1,5 +1,7 @@
 //! What scans state of themselves: where their scanner stood, colours that are not there, limits, degrees, long numbers.
 
+mod geotiff;
+
 use cloud::{Cloud, from_bytes};
 use e57::{Record, RecordDataType, RecordName, RecordValue as Value, Transform};
 use geom::{Transform as Move, Vec3};
@@ -149,15 +151,8 @@ fn colours_of_e57_scans_with_other_limits_become_those_of_bytes() {
 
 /// LAS 1.2 with one point at x, y, and keys of GeoTIFF.
 fn las(keys: &[[u16; 2]], (x, y): (f64, f64)) -> Vec<u8> {
-    let mut data = vec![1u16, 1, 0, keys.len() as u16];
-    keys.iter().for_each(|[id, value]| data.extend([*id, 0, 1, *value]));
     let mut builder = las::Builder::from((1, 2));
-    builder.vlrs.push(las::Vlr {
-        user_id: "LASF_Projection".to_owned(),
-        record_id: 34735,
-        description: String::new(),
-        data: data.iter().flat_map(|n| n.to_le_bytes()).collect(),
-    });
+    builder.vlrs.push(geotiff::record(keys));
     let mut writer = las::Writer::new(Cursor::new(Vec::new()), builder.into_header().unwrap()).unwrap();
     writer.write_point(las::Point { x, y, ..las::Point::default() }).unwrap();
     writer.into_inner().unwrap().into_inner()

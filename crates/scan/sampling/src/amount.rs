@@ -2,7 +2,7 @@
 
 use crate::beside::{Thrown, complete};
 use crate::cells::Cells;
-use crate::eliminate::uncrowded;
+use crate::crowding::uncrowded;
 use crate::lattice::lattice;
 use crate::poisson::poisson;
 use crate::tile::tiled;

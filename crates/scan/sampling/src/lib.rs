@@ -13,6 +13,7 @@
 
 mod amount;
 mod beside;
+mod crowding;
 mod eliminate;
 mod lattice;
 pub mod nearest;

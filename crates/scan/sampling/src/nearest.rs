@@ -11,11 +11,11 @@ const TYPICAL: usize = 4096;
 /// Statistics of the distance from each point to the nearest other one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct NearestDistances {
-    /// Least [m].
+    /// Least of the distances [m].
     pub min: f64,
-    /// Mean [m].
+    /// Mean of the distances [m].
     pub mean: f64,
-    /// Middle one [m].
+    /// Median of the distances [m].
     pub median: f64,
     /// Standard deviation over mean [–].
     pub variation: f64,
@@ -83,6 +83,13 @@ pub fn typical(points: &[Vec3]) -> Option<f64> {
         }
         reach *= 2.0;
     }
+}
+
+/// Place in `kept` of the kept point nearest to each point.
+pub(crate) fn owners(points: &[Vec3], kept: &[u32], spacing: f64) -> Vec<u32> {
+    let chosen: Vec<Vec3> = kept.iter().map(|&i| points[i as usize]).collect();
+    let grid = Grid::new(&chosen, spacing);
+    points.par_iter().map(|p| grid.nearest(&chosen, *p, spacing).unwrap_or(0)).collect()
 }
 
 fn nearest_in(cells: &Cells, slot: u32, reach: f64) -> f64 {

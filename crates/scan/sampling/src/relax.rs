@@ -5,9 +5,10 @@
 //! snapping keeps every result an input point, and a move that would bring two nearer than the spacing is not made. Eight rounds: more bring out a lattice, and blue noise is lost.
 
 use crate::cells::Cells;
+use crate::nearest::owners;
 use crate::sheets::others;
 use crate::{Sample, SampleError, SampleSettings, amount};
-use geom::{Grid, Vec3};
+use geom::Vec3;
 use rayon::prelude::*;
 
 const ROUNDS: usize = 8;
@@ -58,27 +59,6 @@ fn still(
     let beside: Vec<u32> = sample.kept.par_iter().filter(is_beside).copied().collect();
     beside.into_iter().for_each(|i| still[i as usize] = true);
     Some(still)
-}
-
-/// Place in `kept` of the kept point nearest to each point.
-pub(crate) fn owners(points: &[Vec3], kept: &[u32], spacing: f64) -> Vec<u32> {
-    let chosen: Vec<Vec3> = kept.iter().map(|&i| points[i as usize]).collect();
-    let grid = Grid::new(&chosen, spacing);
-    let nearest = |p: &Vec3| {
-        let mut reach = spacing;
-        loop {
-            let distance = |k: u32| ((chosen[k as usize] - p).norm_squared(), k);
-            let best = grid
-                .within(&chosen, *p, reach)
-                .map(distance)
-                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            if let Some((_, k)) = best {
-                return k;
-            }
-            reach *= 2.0;
-        }
-    };
-    points.par_iter().map(nearest).collect()
 }
 
 fn middles(points: &[Vec3], weight: &[f64], owner: &[u32], count: usize) -> Vec<Vec3> {

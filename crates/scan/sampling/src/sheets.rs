@@ -16,8 +16,8 @@
 
 use crate::cells::Cells;
 use crate::poisson::chance;
-use geom::Vec3;
-use nalgebra::{Cholesky, Matrix3, SMatrix, SVector, SymmetricEigen};
+use geom::{PrincipalAxes, Vec3};
+use nalgebra::{Cholesky, SMatrix, SVector};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -79,18 +79,16 @@ fn stand_ins(slots: &[u32], centre: u32) -> (Vec<usize>, usize) {
 /// Whether a paraboloid over the plane of least squares passes all points within `off` [m].
 fn is_smooth(near: &[Vec3], off: f64) -> bool {
     let some: Vec<Vec3> = near.iter().copied().step_by(near.len().div_ceil(FITTED)).collect();
-    let middle = some.iter().sum::<Vec3>() / some.len() as f64;
-    let eigen = SymmetricEigen::new(spread(&some, middle));
-    let axes = eigen.eigenvectors;
-    let largest = eigen.eigenvalues.max();
+    let principal = PrincipalAxes::of(some.iter());
+    let ([u, v], up) = (principal.in_plane(), principal.normal());
+    let largest = principal.spreads.into_iter().fold(f64::NEG_INFINITY, f64::max);
     if largest <= 0.0 || !largest.is_finite() {
         return true;
     }
     let scale = (largest / some.len() as f64).sqrt();
-    let flat = eigen.eigenvalues.imin();
     let place = |p: &Vec3| {
-        let (d, [u, v]) = (p - middle, [(flat + 1) % 3, (flat + 2) % 3]);
-        [d.dot(&axes.column(u)) / scale, d.dot(&axes.column(v)) / scale, d.dot(&axes.column(flat))]
+        let d = p - principal.middle;
+        [d.dot(&u) / scale, d.dot(&v) / scale, d.dot(&up)]
     };
     let terms = |[u, v, _]: [f64; 3]| SVector::<f64, 6>::new(1.0, u, v, u * u, u * v, v * v);
     let (mut normal, mut right) = (SMatrix::<f64, 6, 6>::zeros(), SVector::<f64, 6>::zeros());
@@ -110,19 +108,14 @@ fn is_smooth(near: &[Vec3], off: f64) -> bool {
     })
 }
 
-fn spread(points: &[Vec3], middle: Vec3) -> Matrix3<f64> {
-    points.iter().map(|p| (p - middle) * (p - middle).transpose()).sum()
-}
-
 /// Normal of the plane of least squares; `None` where points do not span one.
 fn normal(points: &[Vec3]) -> Option<Vec3> {
-    let middle = points.iter().sum::<Vec3>() / points.len().max(1) as f64;
-    let eigen = SymmetricEigen::new(spread(points, middle));
-    let mut sizes: Vec<f64> = eigen.eigenvalues.iter().copied().collect();
+    let principal = PrincipalAxes::of(points.iter());
+    let mut sizes = principal.spreads;
     sizes.sort_by(f64::total_cmp);
     // A row of points is no sheet.
     let spans = points.len() >= 3 && sizes[1] > 1e-2 * sizes[2];
-    spans.then(|| eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned())
+    spans.then(|| principal.normal())
 }
 
 /// The points of a ball in cells as wide as a step.

@@ -16,8 +16,7 @@
 
 use crate::cells::Cells;
 use crate::poisson::poisson;
-use geom::{Grid, Vec3};
-use nalgebra::{Matrix3, SymmetricEigen};
+use geom::{Grid, PrincipalAxes, Vec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -171,10 +170,7 @@ fn unroll(p: &Vec3, u: &Vec3, v: &Vec3) -> [f64; 2] {
 
 /// Two axes in the plane of least squares, the first along `axis` where it can be, and the normal.
 fn plane(near: &[Vec3], axis: Vec3) -> Option<[Vec3; 3]> {
-    let mean = near.iter().sum::<Vec3>() / near.len() as f64;
-    let spread: Matrix3<f64> = near.iter().map(|p| (p - mean) * (p - mean).transpose()).sum();
-    let eigen = SymmetricEigen::new(spread);
-    let normal = eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned();
+    let normal = PrincipalAxes::of(near.iter()).normal();
     let along = axis - normal * axis.dot(&normal);
     if along.norm() < 0.2 {
         return None;

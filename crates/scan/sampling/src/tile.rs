@@ -14,11 +14,10 @@
 //! scanned surface fit no square; the seams are closed afterwards.
 
 use crate::cells::Cells;
+use crate::nearest::owners;
 use crate::poisson::{chance, poisson};
-use crate::relax::owners;
 use crate::torus::Tile;
-use geom::Vec3;
-use nalgebra::{Matrix3, SymmetricEigen};
+use geom::{PrincipalAxes, Vec3};
 use rayon::prelude::*;
 
 /// Distance of the patches' centres in spacings: some 70 points each.
@@ -64,17 +63,8 @@ fn patterned(points: &[Vec3], spacing: f64, seed: u64) -> Vec<u32> {
 
 /// Of the `members` of a patch, those nearest to the points of the pattern.
 fn laid(points: &[Vec3], members: &[u32], tile: &Tile, spacing: f64, luck: [f64; 3]) -> Vec<u32> {
-    let middle = members.iter().map(|&i| points[i as usize]).sum::<Vec3>() / members.len().max(1) as f64;
-    let spread: Matrix3<f64> = members
-        .iter()
-        .map(|&i| {
-            let d = points[i as usize] - middle;
-            d * d.transpose()
-        })
-        .sum();
-    let eigen = SymmetricEigen::new(spread);
-    let flat = eigen.eigenvalues.imin();
-    let axes = [(flat + 1) % 3, (flat + 2) % 3].map(|k| eigen.eigenvectors.column(k).into_owned());
+    let principal = PrincipalAxes::of(members.iter().map(|&i| &points[i as usize]));
+    let (middle, axes) = (principal.middle, principal.in_plane());
     let (sin, cos) = libm::sincos(std::f64::consts::TAU * luck[0]);
     let scale = tile.nearest / spacing;
     let place = |p: Vec3| {

@@ -23,7 +23,7 @@ pub(crate) struct Tile {
 }
 
 impl Tile {
-    /// The tile.
+    /// Makes the tile: random points, thinned to even distances.
     pub(crate) fn new() -> Tile {
         let points = thinned(random(POINTS * CROWD), POINTS);
         let mut squares = vec![Vec::new(); SQUARES * SQUARES];

@@ -1,5 +1,6 @@
 //! The command line.
 
+use cli::{MaybeFile, OutPath};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -18,10 +19,10 @@ pub struct Args {
     pub recipe: Option<PathBuf>,
     /// Data of a test (CSV), instead of those of the recipe; without TEST=: of the next test without data; several of one test: specimens
     #[arg(long, value_name = "[TEST=]FILE")]
-    pub data: Vec<String>,
+    data: Vec<MaybeFile>,
     /// Folder of the trials; the same command continues there [default: RECIPE.trials]
     #[arg(long, value_name = "DIR")]
-    dir: Option<PathBuf>,
+    dir: Option<OutPath>,
     /// Runs at the same time [default: all cores]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -30,7 +31,7 @@ pub struct Args {
     pub so_far: bool,
     /// Write the open runs of the next batch, a command each line, and end
     #[arg(long, value_name = "FILE", conflicts_with_all = ["jobs", "words", "samples", "plot", "page"])]
-    pub jobs_file: Option<PathBuf>,
+    pub jobs_file: Option<OutPath>,
     /// Do one run that --jobs-file has listed
     #[arg(long, value_name = "JOB", conflicts_with_all = ["recipe", "data", "dir", "jobs", "jobs_file", "words", "samples", "plot", "page", "design", "seed"])]
     pub run: Option<PathBuf>,
@@ -51,19 +52,19 @@ pub struct Args {
     pub repose_deg: Option<String>,
     /// Write the findings as text (Markdown)
     #[arg(long, value_name = "FILE")]
-    pub words: Option<PathBuf>,
+    pub words: Option<OutPath>,
     /// Draw fits, pairs, sensitivities and convergence (SVG or PNG)
     #[arg(long, value_name = "FILE")]
-    pub plot: Option<PathBuf>,
+    pub plot: Option<OutPath>,
     /// Write a page with the picture, the findings and the tests (HTML)
     #[arg(long, value_name = "FILE")]
-    pub page: Option<PathBuf>,
+    pub page: Option<OutPath>,
     /// Write what each test would tell next, the most telling first (CSV); tests without data are simulated, too
     #[arg(long, value_name = "FILE")]
-    pub design: Option<PathBuf>,
+    pub design: Option<OutPath>,
     /// Write samples of the posterior (CSV)
     #[arg(long, value_name = "FILE")]
-    pub samples: Option<PathBuf>,
+    pub samples: Option<OutPath>,
     #[command(flatten)]
     pub output: cli::Output,
     /// Seed of the proposals, and the first of the runs [default: that of the recipe]
@@ -95,10 +96,15 @@ impl Args {
         Ok(())
     }
 
+    /// Data of the tests, as the recipe's reader takes them.
+    pub fn data(&self) -> Vec<String> {
+        self.data.iter().map(|data| data.text().to_owned()).collect()
+    }
+
     /// Folder of the trials.
     pub fn dir(&self, recipe: &Path) -> PathBuf {
         let beside = || PathBuf::from(recipe.file_stem().unwrap_or_default()).with_extension("trials");
-        self.dir.clone().unwrap_or_else(beside)
+        self.dir.as_deref().map_or_else(beside, Path::to_owned)
     }
 
     /// Runs at the same time.

@@ -26,7 +26,7 @@ fn calibrate(args: Args) -> anyhow::Result<Report> {
     }
     let path = args.recipe()?;
     args.check_names()?;
-    let mut recipe = recipe::read(path, &args.data).map_err(refused)?;
+    let mut recipe = recipe::read(path, &args.data()).map_err(refused)?;
     recipe.settings.seed = args.seed.unwrap_or(recipe.settings.seed);
     recipe.warnings.iter().for_each(|w| cli::warn(w));
     let (dir, watch) = (args.dir(path), watch::Terminal::new());

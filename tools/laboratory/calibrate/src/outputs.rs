@@ -89,7 +89,7 @@ pub fn ended(job: &Path, ended: Option<Ended>) -> anyhow::Result<Report> {
 }
 
 fn to(file: &Path) -> Output {
-    Output { file: Some(file.to_owned()) }
+    Output { file: Some(file.into()) }
 }
 
 fn write(to: &Output, bytes: &[u8]) -> anyhow::Result<()> {

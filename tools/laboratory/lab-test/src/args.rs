@@ -1,9 +1,8 @@
 //! The command line.
 
 use anyhow::Context;
-use cli::usage;
+use cli::{OutPath, usage};
 use lab::Request;
-use std::path::PathBuf;
 
 const NOTES: &str = "SAMPLE.toml is a scene without walls, times and outputs: materials, contacts, bonds, and the grains as one [[fill]] \
     without shape and amount, or as packed [[particles]] (of stone-pack, or of a run). Walls are of the materials 'side' (smooth) and 'plate' \
@@ -63,10 +62,10 @@ pub struct Args {
     pub seeds: u64,
     /// Folder for scenes, runs and tables, one for each specimen; what is finished there is used again [default: none is kept]
     #[arg(long, value_name = "DIR")]
-    pub dir: Option<PathBuf>,
+    pub dir: Option<OutPath>,
     /// Run nothing while specimens are open: write a shell line for each of them, for parallel, make -j or a batch system; the same command then evaluates them
     #[arg(long, value_name = "FILE", requires = "dir")]
-    pub jobs_file: Option<PathBuf>,
+    pub jobs_file: Option<OutPath>,
     /// Run nothing; print the scene of the test, with the specimen as high as it is expected to become
     #[arg(long)]
     pub print_scene: bool,
@@ -75,13 +74,13 @@ pub struct Args {
     pub print_preparation: bool,
     /// Write what the curves come to as a table (Markdown)
     #[arg(long, value_name = "FILE.md")]
-    pub words: Option<PathBuf>,
+    pub words: Option<OutPath>,
     /// Draw the curves
     #[arg(long, value_name = "FILE.svg|png")]
-    pub plot: Option<PathBuf>,
+    pub plot: Option<OutPath>,
     /// Write a page with the test of the first specimen in motion
     #[arg(long, value_name = "FILE.html")]
-    pub page: Option<PathBuf>,
+    pub page: Option<OutPath>,
     #[command(flatten)]
     pub seed: cli::Seed,
 }

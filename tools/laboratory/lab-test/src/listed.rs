@@ -20,6 +20,8 @@ pub fn write(file: &Path, args: &Args, lab: &Lab, open: &[&Loading]) -> anyhow::
     let mut words = vec![quoted(lab.recipe().name()), quoted(&args.sample.to_string())];
     let is_common = |a: &String| a.starts_with("--") && !OWN.iter().any(|own| a.starts_with(own));
     words.extend(cli::arguments().iter().filter(|a| is_common(a)).map(|argument| quoted(argument)));
+    // Where the command line names outputs, they are no arguments of the result: the folder is what the lines have in common.
+    words.extend(args.dir.as_ref().map(|dir| quoted(&format!("--dir={}", dir.display()))));
     let common = words.join(" ");
     let line = |loading: &&Loading| {
         let own = own(args, lab, loading).join(" ");

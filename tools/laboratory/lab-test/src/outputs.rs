@@ -61,7 +61,7 @@ pub fn text(output: &Output, text: &str) -> anyhow::Result<()> {
 
 /// Writes a file.
 pub fn bytes_to(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let mut out = Output { file: Some(file.to_owned()) }.open_text()?;
+    let mut out = Output { file: Some(file.into()) }.open_text()?;
     out.write_all(bytes).with_context(|| format!("{}: cannot write", file.display()))?;
     out.commit()
 }

@@ -1,9 +1,8 @@
 //! The command line.
 
 use clap::Parser;
-use cli::{Output, Source};
+use cli::{OutPath, Output, Source};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:\n\
     \x20 dem-lammps spheres.toml -o lammps.mcap\n\
@@ -35,13 +34,13 @@ pub struct Args {
     pub check: bool,
     /// Write only the deck (input script, data file, batch script for Slurm) into a folder
     #[arg(long, value_name = "DIR")]
-    pub write_deck: Option<PathBuf>,
+    pub write_deck: Option<OutPath>,
     /// Read the frames of a deck that has run elsewhere
     #[arg(long, value_name = "FILE")]
     pub read_dump: Option<Source>,
     /// Keep the deck, frames and LAMMPS' restart files in a folder; the same command continues there
     #[arg(long, value_name = "DIR")]
-    pub dir: Option<PathBuf>,
+    pub dir: Option<OutPath>,
     /// MPI ranks [default: 1]
     #[arg(long, value_name = "N")]
     pub ranks: Option<NonZeroUsize>,

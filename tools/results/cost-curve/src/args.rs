@@ -2,10 +2,10 @@
 
 use anyhow::Context;
 use clap::Parser;
-use cli::usage;
+use cli::{OutPath, usage};
 use curve::{Study, TrueValue, Wanted};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const NOTES: &str = "KEY: any key of the scene (as for dem-run --set; * is every entry of a list: material.*.young), or safety, dt, \
     accuracy, stiffness (a factor on every young and stiffness), young, precision, skin, sleep, every, zone, threads. \
@@ -79,16 +79,16 @@ pub struct Args {
     pub jobs: NonZeroUsize,
     /// Folder for the points, each with its run and report; finished points are reused (default: beside the plot)
     #[arg(long, value_name = "DIR", help_heading = "Running")]
-    pub dir: Option<PathBuf>,
+    pub dir: Option<OutPath>,
     /// Run nothing: write a script for each point that is not finished, and print a line to run each
     #[arg(long, visible_alias = "dry-run", help_heading = "Running")]
     pub print_commands: bool,
     /// Also write the result in sentences to FILE.md (Markdown)
     #[arg(long, value_name = "FILE.md")]
-    pub words: Option<PathBuf>,
+    pub words: Option<OutPath>,
     /// The plot: work over error
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE.svg|png")]
-    pub plot: Option<PathBuf>,
+    pub plot: Option<OutPath>,
 }
 
 /// What a run costs.
@@ -163,8 +163,8 @@ impl Args {
 
     /// The folder of the points.
     pub fn folder(&self) -> PathBuf {
-        let beside = || self.plot.clone().unwrap_or_else(|| "cost-curve".into()).with_extension("points");
-        self.dir.clone().unwrap_or_else(beside)
+        let beside = || self.plot.as_deref().unwrap_or(Path::new("cost-curve")).with_extension("points");
+        self.dir.as_deref().map_or_else(beside, Path::to_owned)
     }
 
     /// Refuses what would only fail after the runs.

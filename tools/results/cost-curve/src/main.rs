@@ -115,7 +115,7 @@ fn publish(args: &Args, judged: &Judged) -> anyhow::Result<()> {
 }
 
 fn write(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let mut out: OutputStream = Output { file: Some(file.to_owned()) }.open_text()?;
+    let mut out: OutputStream = Output { file: Some(file.into()) }.open_text()?;
     out.write_all(bytes).with_context(|| format!("{}: cannot write", file.display()))?;
     out.commit()
 }

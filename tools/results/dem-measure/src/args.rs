@@ -1,11 +1,10 @@
 //! The command line.
 
 use clap::{ArgGroup, Parser};
-use cli::{Output, Source, usage};
+use cli::{OutPath, Output, Source, usage};
 use geom::number::finite;
 use geom::{Plane, Shape, Vec3};
 use measure::profile::Turn;
-use std::path::PathBuf;
 
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
     cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE | mesh:FILE,units=mm | mesh:FILE,transform=MATRIX.txt | all (where no volume \
@@ -184,7 +183,7 @@ pub struct Args {
 
     /// Also draw a plot
     #[arg(long, value_name = "FILE.svg|png")]
-    pub plot: Option<PathBuf>,
+    pub plot: Option<OutPath>,
     /// JSON instead of CSV
     #[arg(long)]
     pub json: bool,

@@ -2,8 +2,7 @@
 
 use crate::formats::{self, Format};
 use clap::Parser;
-use cli::Source;
-use std::path::PathBuf;
+use cli::{OutPath, Source};
 use view::{Arrows, Camera, Extras, Map, Only, PictureOptions, Span};
 
 /// What is smaller in a picture is hardly seen [pixel].
@@ -34,7 +33,7 @@ pub struct Args {
     /// Write to FILE instead of HTML to stdout; FILE appears when it is complete. Endings: .html, .png, .gif, .mp4 (needs ffmpeg), .vtp
     /// (ParaView, one moment), .pvd (ParaView, a series: NAME.pvd and a folder NAME)
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
-    pub file: Option<PathBuf>,
+    pub file: Option<OutPath>,
     /// Field to colour by: speed, spin, radius, size (classes of diameter), material, broken (share of a grain's bonds that are
     /// broken), id, x, y, z, rgb, or any column [default: speed, else z]
     #[arg(long, visible_alias = "color", value_name = "FIELD")]

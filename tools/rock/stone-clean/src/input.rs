@@ -34,7 +34,7 @@ pub fn read(bytes: &[u8], args: &Args) -> anyhow::Result<Read> {
     open.for_each(|warning| cli::warn(&warning.to_string()));
     let (mut cloud, _) = cloud.finite();
     cloud.check_reach()?;
-    let places = cloud::places::distinct(&cloud.points, 0.0);
+    let places = cloud::points::places::distinct(&cloud.points, 0.0);
     if places.len() < cloud.points.len() {
         let repeated = geom::counted_as(cloud.points.len() - places.len(), "point", ["lies", "lie"]);
         cli::warn(&format!("{repeated} where another one lies: each place counts once"));

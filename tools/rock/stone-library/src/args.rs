@@ -26,7 +26,7 @@ pub struct Args {
     pub placing: cli::Placing,
     /// Folder for the library; it is made when it is missing
     #[arg(id = "output", short = 'o', long = "output", value_name = "DIR", required = true)]
-    pub folder: PathBuf,
+    pub folder: cli::OutPath,
     /// Add this number of variants: stones between two scans, with measures of shape within theirs
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub variants: Option<u32>,

@@ -2,6 +2,7 @@
 
 use anyhow::Context;
 use clap::Parser;
+use cli::OutPath;
 use photos::{MaskSettings, Polarity, raster::WIDEST};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -20,13 +21,13 @@ pub struct Args {
     photographs: Vec<PathBuf>,
     /// Folder for the masks; it is made when it is missing
     #[arg(id = "output", short = 'o', long = "output", value_name = "DIR", required = true)]
-    pub folder: PathBuf,
+    pub folder: OutPath,
     /// Take masks from this folder where it has one of the photograph's name, and find the others
     #[arg(long, value_name = "DIR")]
     pub given: Option<PathBuf>,
     /// Contact sheet: all photographs with the edges of their masks (PNG)
     #[arg(long, value_name = "FILE")]
-    pub sheet: Option<PathBuf>,
+    pub sheet: Option<OutPath>,
     /// Whether the stone is brighter or darker than what is behind it [default: what most of the frame is not]
     #[arg(long, value_enum)]
     object: Option<Object>,

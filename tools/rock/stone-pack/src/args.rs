@@ -1,6 +1,7 @@
 //! The command line.
 
 use crate::inputs::Grains;
+use cli::OutPath;
 use geom::{Shape, shape::Solid};
 use scene::plan::implausible_density;
 use std::path::PathBuf;
@@ -63,13 +64,13 @@ pub struct Args {
     bonded: bool,
     /// Stones are rigid clumps of their grains: -o has only the soil, and FILE.toml the [[clump]] and [[body]] of each stone
     #[arg(long = "rigid", id = "rigid", value_name = "FILE.toml")]
-    pub bodies: Option<PathBuf>,
+    pub bodies: Option<OutPath>,
     /// Write name, class, place, orientation, size and mass of each stone (CSV)
     #[arg(long, value_name = "FILE")]
-    pub places: Option<PathBuf>,
+    pub places: Option<OutPath>,
     /// Write the surfaces of the placed stones as one mesh (PLY)
     #[arg(long, value_name = "FILE")]
-    pub surfaces: Option<PathBuf>,
+    pub surfaces: Option<OutPath>,
     #[command(flatten)]
     pub seed: cli::Seed,
     #[command(flatten)]

@@ -1,8 +1,8 @@
 //! The command line.
 
+use cli::OutPath;
 use cloud::Cloud;
 use sampling::{Amount, Distance, Method, SampleSettings};
-use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:\n\
     \x20 bluenoise-sample filled.ply --spacing 0.012 -o sampled.ply\n\
@@ -38,7 +38,7 @@ pub struct Args {
     keep_filled: bool,
     /// Draw the spectrum and the anisotropy (FILE.svg or FILE.png)
     #[arg(long, value_name = "FILE")]
-    pub plot: Option<PathBuf>,
+    pub plot: Option<OutPath>,
     /// Leave nearest distances and spectrum out of the report; measuring them takes longer than sampling
     #[arg(long)]
     no_measures: bool,

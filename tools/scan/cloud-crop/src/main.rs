@@ -7,11 +7,11 @@ use clap::Parser;
 use cli::Report;
 use cloud::crop::CropError;
 use cloud::crop::Rules;
-use cloud::crop_rows;
-use cloud::filter::Filter;
-use cloud::ground::Ground;
-use cloud::outliers::Outliers;
-use cloud::scatter::Scattered;
+use cloud::crop::filter::Filter;
+use cloud::crop::ground::Ground;
+use cloud::crop::outliers::Outliers;
+use cloud::crop::rows;
+use cloud::crop::scatter::Scattered;
 use geom::{Shape, Vec3};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -71,7 +71,7 @@ struct Args {
     #[arg(long, value_name = "DEG", value_parser = grazing)]
     grazing: Option<f64>,
     /// Where a scanner stood [m], for --grazing, beside the viewpoints that the scan states (repeat)
-    #[arg(long, value_name = "x,y,z", value_parser = cloud::seen::viewpoint, allow_hyphen_values = true, requires = "grazing")]
+    #[arg(long, value_name = "x,y,z", value_parser = cloud::points::viewpoint, allow_hyphen_values = true, requires = "grazing")]
     seen_from: Vec<Vec3>,
     /// Remove the ground, which need not be flat: nothing on it is wider than WIDTH [m], and points up to HEIGHT [m] from it are ground
     #[arg(long, value_name = "WIDTH,HEIGHT[,SLOPE]")]
@@ -102,7 +102,7 @@ fn crop(args: Args) -> anyhow::Result<Report> {
     }
     let opened = Opened::new(args.input.open()?).with_context(|| args.input.name())?;
     let opened = match opened {
-        Opened::Blocks(blocks) if !args.check && args.is_plain() && crop_rows::can(&blocks, &rules) => {
+        Opened::Blocks(blocks) if !args.check && args.is_plain() && rows::can(&blocks, &rules) => {
             return rows(&args, blocks, &rules);
         }
         other => other,
@@ -144,7 +144,7 @@ fn cropped(args: &Args, rules: &Rules, cloud: &cloud::Cloud) -> anyhow::Result<R
 
 /// The same for a plain PLY, row by row.
 fn rows(args: &Args, blocks: Blocks<impl Read>, rules: &Rules) -> anyhow::Result<Report> {
-    let (kept, counts) = crop_rows::crop_rows(blocks, rules).with_context(|| args.input.name())?;
+    let (kept, counts) = rows::crop_rows(blocks, rules).with_context(|| args.input.name())?;
     args.input.warn_about(&kept.warnings);
     words::warn(&counts, rules);
     let mut out = args.output.to.open()?;
@@ -184,7 +184,7 @@ fn rules(args: &Args) -> anyhow::Result<Rules> {
     if let Some(file) = &args.regions {
         let text = stream::whole::text(file).with_context(|| format!("{}: cannot read", file.display()))?;
         let folder = file.parent().unwrap_or(Path::new(""));
-        cloud::regions::add_regions(&mut rules, &text, folder).with_context(|| file.display().to_string())?;
+        cloud::crop::add_regions(&mut rules, &text, folder).with_context(|| file.display().to_string())?;
     }
     rules.outer.shapes.extend(args.outer.iter().cloned());
     rules.outer.tolerance = args.tolerance.unwrap_or(rules.outer.tolerance);

@@ -2,9 +2,9 @@
 
 use anyhow::Context;
 use cli::Report;
+use cloud::crop::filter::Filter;
+use cloud::crop::outer::OutsidePart;
 use cloud::crop::{Cropped, Rules};
-use cloud::filter::Filter;
-use cloud::outer::OutsidePart;
 use geom::Shown;
 use std::io::Write;
 

@@ -7,7 +7,6 @@ use cloud::fill::Settings;
 use cloud::{Mesher, Method};
 use geom::number::positive;
 use geom::{Shape, Vec3, counted};
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 const ABOUT: &str = "A hole is a region inside the outline of the surface with a density of at most --below. The rim is not \
@@ -42,7 +41,7 @@ struct Args {
     #[arg(long, value_name = "SHAPE", value_parser = mesh::shape)]
     region: Vec<Shape>,
     /// Where a scanner stood [m] (repeat for more): space that it looked through stays open
-    #[arg(long, value_name = "x,y,z", value_parser = cloud::seen::viewpoint, allow_hyphen_values = true)]
+    #[arg(long, value_name = "x,y,z", value_parser = cloud::points::viewpoint, allow_hyphen_values = true)]
     seen_from: Vec<Vec3>,
     /// Also fill holes between two surfaces, as between an edge and the floor behind it
     #[arg(long, conflicts_with = "seen_from")]
@@ -61,7 +60,7 @@ struct Args {
     ball: Vec<f64>,
     /// Write the meshes of the holes to FILE (PLY)
     #[arg(long, value_name = "FILE")]
-    mesh: Option<PathBuf>,
+    mesh: Option<cli::OutPath>,
     #[command(flatten)]
     seed: cli::Seed,
 }

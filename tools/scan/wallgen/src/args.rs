@@ -24,7 +24,7 @@ pub struct Args {
     pub output: cloud_cli::CloudOutput,
     /// Depth of the dents between neighbouring spheres [m], or a file of regions and wear (docs/reference/wall-input.md)
     #[arg(long, value_name = "M|FILE.toml", allow_hyphen_values = true)]
-    roughness: Option<String>,
+    roughness: Option<cli::MaybeFile>,
     /// Radii: solve (pair by pair), uniform, or a length [m]
     #[arg(long, value_name = "solve|uniform|M", default_value = "solve", value_parser = radius)]
     radius: Radius,
@@ -72,7 +72,7 @@ pub struct Args {
     pub gaps: bool,
     /// Write the pairs of neighbours without the requested roughness: point_i,point_j,x,y,z,distance,asked,made [m]
     #[arg(long, value_name = "FILE.csv")]
-    pub changes: Option<PathBuf>,
+    pub changes: Option<cli::OutPath>,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -201,7 +201,7 @@ impl Args {
         };
         self.check_length()?;
         let Some(path) = self.regions_file() else {
-            let roughness = self.roughness.as_deref().map(|text| text.parse::<f64>()).transpose();
+            let roughness = self.roughness.as_ref().map(|given| given.text().parse::<f64>()).transpose();
             let roughness =
                 roughness.map_err(|_| cli::usage("--roughness: give a length in m, or FILE.toml"))?;
             return Regions::one(roughness, material, self.velocity)
@@ -293,7 +293,11 @@ impl Args {
 
     /// A roughness that is not a number is a file.
     fn regions_file(&self) -> Option<&Path> {
-        self.roughness.as_deref().filter(|text| text.parse::<f64>().is_err()).map(Path::new)
+        self.roughness
+            .as_ref()
+            .map(cli::MaybeFile::text)
+            .filter(|text| text.parse::<f64>().is_err())
+            .map(Path::new)
     }
 }
 

@@ -25,7 +25,7 @@ pub fn too_little_memory_is_one_line(folder: &Path) {
 
 /// Files of arguments and of stdin, and not those of the trial itself.
 pub fn what_a_tool_reads_is_noted(folder: &Path) {
-    fs::write(folder.join("a b.xyz"), "0 0 0\n1 0 0\n").unwrap();
+    fs::write(folder.join("a b.xyz"), crate::CLOUD).unwrap();
     let me = std::env::current_exe().unwrap();
     let noted = |line: &str| {
         let line = line.replace("TOOL", &format!("'{}' copy -q", me.display()));
@@ -56,7 +56,7 @@ pub fn what_a_tool_reads_is_noted(folder: &Path) {
 
 /// As many as `--threads` starts, at most.
 pub fn threads_of_a_variable(folder: &Path) {
-    fs::write(folder.join("in.xyz"), "0 0 0\n1 0 0\n").unwrap();
+    fs::write(folder.join("in.xyz"), crate::CLOUD).unwrap();
     let most = 64.max(4 * std::thread::available_parallelism().unwrap().get());
     let mut tool = Command::new(std::env::current_exe().unwrap());
     tool.args(["copy", "in.xyz", "-o", "out.ply"]).env(tool::SWITCH, "1").env("RAYON_NUM_THREADS", "100000");
@@ -81,7 +81,7 @@ pub fn names_of_all_bytes_and_lengths(folder: &Path) {
         ],
     ];
     for [from, to] in names {
-        fs::write(folder.join(&from), "0 0 0\n1 0 0\n").unwrap();
+        fs::write(folder.join(&from), crate::CLOUD).unwrap();
         let mut tool = Command::new(std::env::current_exe().unwrap());
         tool.arg("copy").arg(&from).arg("-o").arg(&to).env(tool::SWITCH, "1").current_dir(folder);
         let done = tool.output().unwrap();

@@ -35,6 +35,20 @@ fn within_finds_what_brute_force_finds_in_dense_and_sparse_grids() {
     }
 }
 
+#[test]
+fn the_nearest_is_that_of_a_look_at_every_point() {
+    let points = [scatter(300, [1.0, 1.0, 0.1]), vec![Vec3::repeat(0.5); 3]].concat();
+    for grid in kinds(&points, 0.05) {
+        for &p in points.iter().step_by(29).chain(&[Vec3::repeat(0.5), Vec3::new(900.0, -3.0, 0.0)]) {
+            let p = p + Vec3::repeat(1e-3);
+            let apart = |i: &u32| (points[*i as usize] - p).norm_squared();
+            let all = (0..points.len() as u32).min_by(|a, b| apart(a).total_cmp(&apart(b)).then(a.cmp(b)));
+            assert_eq!(grid.nearest(&points, p, 1e-3), all);
+        }
+    }
+    assert_eq!(Grid::new(&points, 0.05).nearest(&points, Vec3::repeat(f64::NAN), 0.1), None);
+}
+
 /// Cells as for small grains, and a search as far as a large one reaches: rows longer than those that are searched cell by cell, and more rows than
 /// points, of which one run of all is made.
 #[test]

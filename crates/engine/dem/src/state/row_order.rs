@@ -1,7 +1,7 @@
 //! Particles in a new order: each column that has a row for each of them follows.
 //!
-//! Every part of the state takes itself to pieces here or in its own `reorder`, so that a field that is added does not compile until someone
-//! has decided what a new order does to it.
+//! Every part of the state takes itself to pieces here or in its own `reorder`, so that a field that is added does not compile until it
+//! is decided what a new order does to it.
 
 use crate::state::{SpareColumns, State};
 

@@ -1,7 +1,7 @@
 //! Drawings as clouds: the corners of the triangles of STL and OBJ, each once; the vertices of an OBJ without faces.
 
-use super::ReadError;
-use crate::Cloud;
+use super::error::ReadError;
+use crate::points::Cloud;
 use crate::points::ReadWarning;
 use stream::Table;
 

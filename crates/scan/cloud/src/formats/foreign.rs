@@ -1,11 +1,12 @@
 //! Readers of other crates, whose panics become errors.
 //!
-//! The crates that read LAS, E57 and PCD may index, add or allocate by numbers that a broken file gives them, and then panic. Such a reader gets a thread of its
-//! own: a panic ends that thread alone and is told as an error of the file. The standard library prints a panic through the hook of the whole process before
-//! anything can catch it, and a hook knows of a panic its thread: so the hook that is set here passes on what happens in every other thread.
+//! laz and pcd-rs panic on some damaged packed points, by an index or a shift that the file gives; las and e57 read numbers in the same way. What would take
+//! memory, time or the whole stack instead is refused before they run. Each reader gets a thread of its own: a panic ends that thread alone and is told as an
+//! error of the file. The standard library prints a panic by the hook of the whole process, before anything can catch it; a hook knows the name of the thread,
+//! so the one that is set here prints nothing for these threads and passes all others on.
 
-use super::ReadError;
-use crate::Cloud;
+use super::error::ReadError;
+use crate::points::Cloud;
 use std::io;
 use std::sync::Once;
 use std::thread::{Builder, Scope, ScopedJoinHandle, current};

@@ -1,7 +1,8 @@
 //! PCD 0.7 (text, binary, compressed), by the `pcd-rs` crate.
 
-use super::{ReadError, foreign};
-use crate::Cloud;
+use super::error::ReadError;
+use super::foreign;
+use crate::points::Cloud;
 use geom::Vec3;
 use pcd_rs::{DynReader, Field, ValueKind, metas::FieldDef};
 use stream::{Table, Values};

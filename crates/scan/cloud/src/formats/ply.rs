@@ -1,7 +1,7 @@
 //! PLY clouds and meshes, on top of `stream::ply`.
 
-use super::ReadError;
-use crate::Cloud;
+use super::error::ReadError;
+use crate::points::Cloud;
 use geom::Vec3;
 use geom::mesh::TriMesh;
 use std::io::{Read, Write};
@@ -29,21 +29,13 @@ pub(super) fn read(bytes: Vec<u8>) -> Result<Cloud, ReadError> {
     from_element(element, comments)
 }
 
-/// Reads a cloud that may be a plain binary PLY; whatever is none comes back, whole.
-pub(super) fn stream<R: Read>(opened: Opened<R>) -> Result<Result<Cloud, Vec<u8>>, ReadError> {
+/// Reads a cloud that is a plain binary PLY, row by row; else the bytes that were read come back, and what follows them.
+pub(super) fn stream<R: Read>(opened: Opened<R>) -> Result<Result<Cloud, (Vec<u8>, R)>, ReadError> {
     match opened {
         Opened::Blocks(blocks) if positions(&blocks).is_some() => from_blocks(blocks).map(Ok),
-        Opened::Blocks(blocks) => rest(blocks.into_parts()),
-        Opened::Other(bytes, from) => rest((bytes, from)),
+        Opened::Blocks(blocks) => Ok(Err(blocks.into_parts())),
+        Opened::Other(bytes, from) => Ok(Err((bytes, from))),
     }
-}
-
-fn rest<R: Read>((mut bytes, mut from): (Vec<u8>, R)) -> Result<Result<Cloud, Vec<u8>>, ReadError> {
-    // Bytes of an unknown format may come from an endless stream.
-    if super::name_of(&bytes).is_some() {
-        stream::whole::rest(&mut from, &mut bytes).map_err(ReadError::Io)?;
-    }
-    Ok(Err(bytes))
 }
 
 /// The names of x, y and z in a table: capitals only where there is no small letter.

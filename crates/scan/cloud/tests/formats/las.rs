@@ -1,6 +1,6 @@
 //! LAS and LAZ: extra bytes, counts, units, and the numbers that another reader finds.
 
-use super::{column, read, refused};
+use super::{column, geotiff, read, refused};
 use geom::Vec3;
 use std::io::Cursor;
 use stream::Values;
@@ -129,35 +129,28 @@ fn las_in_degrees_is_refused() {
 /// The numbers of EPSG alone say that a state plane counts in feet.
 #[test]
 fn las_in_feet_by_its_codes_prints_a_warning() {
-    let with = |keys: &[(u16, u16)]| {
-        let mut data = [1u16, 1, 0, keys.len() as u16].to_vec();
-        keys.iter().for_each(|(id, value)| data.extend([*id, 0, 1, *value]));
+    let with = |keys: &[[u16; 2]]| {
         let mut builder = las::Builder::from((1, 2));
-        builder.vlrs.push(las::Vlr {
-            user_id: "LASF_Projection".to_owned(),
-            record_id: 34735,
-            description: String::new(),
-            data: data.iter().flat_map(|n| n.to_le_bytes()).collect(),
-        });
+        builder.vlrs.push(geotiff::record(keys));
         let writer = las::Writer::new(Cursor::new(Vec::new()), builder.into_header().unwrap());
         let bytes = writer.unwrap().into_inner().unwrap().into_inner();
         read(bytes).warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
     };
     for (keys, part) in [
-        (&[(1024, 1), (3072, 2263)][..], "'US survey foot' of 0.30480060960121924 m"),
-        (&[(1024, 1), (3072, 2994)], "'foot' of 0.3048 m"),
-        (&[(1024, 1), (3072, 2263), (4096, 6360)], "'US survey foot' of"),
-        (&[(1024, 1), (3072, 2263), (4096, 5703)], "heights in 'metre'"),
-        (&[(1024, 1), (3072, 32633), (4096, 6360)], "x and y in 'metre'"),
-        (&[(1024, 1), (3072, 2263), (3076, 9002)], "'foot' of 0.3048 m"),
+        (&[[1024, 1], [3072, 2263]][..], "'US survey foot' of 0.30480060960121924 m"),
+        (&[[1024, 1], [3072, 2994]], "'foot' of 0.3048 m"),
+        (&[[1024, 1], [3072, 2263], [4096, 6360]], "'US survey foot' of"),
+        (&[[1024, 1], [3072, 2263], [4096, 5703]], "heights in 'metre'"),
+        (&[[1024, 1], [3072, 32633], [4096, 6360]], "x and y in 'metre'"),
+        (&[[1024, 1], [3072, 2263], [3076, 9002]], "'foot' of 0.3048 m"),
     ] {
         let said = with(keys);
         assert!(said.contains(part), "{keys:?}: {said}");
     }
     for keys in [
-        &[(1024, 1), (3072, 32633)][..],
-        &[(1024, 1), (3072, 2263), (3076, 9001)],
-        &[(1024, 1), (3072, 32767)],
+        &[[1024, 1], [3072, 32633]][..],
+        &[[1024, 1], [3072, 2263], [3076, 9001]],
+        &[[1024, 1], [3072, 32767]],
     ] {
         assert_eq!(with(keys), "", "{keys:?}");
     }

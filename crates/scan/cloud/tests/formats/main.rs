@@ -3,6 +3,8 @@
 mod broken;
 mod drawings;
 mod e57;
+#[path = "../geotiff/mod.rs"]
+mod geotiff;
 mod las;
 mod pcd;
 mod ply;

@@ -3,8 +3,9 @@
 //! Positions close together on the drawing and the points of the scan are thinned as one cloud (Poisson disk), in which every point of the
 //! scan is kept.
 
-use super::{MOST, sides};
-use crate::WallError;
+use super::candidate::MOST;
+use super::sides;
+use crate::settings::WallError;
 use geom::{Grid, Vec3, mesh::TriMesh};
 use rayon::prelude::*;
 use sampling::{Amount, Distance, Method, SampleSettings};
@@ -13,8 +14,6 @@ use sampling::{Amount, Distance, Method, SampleSettings};
 const CLOSEST: f64 = 0.73;
 /// Positions that are chosen from, in a square of the distance of neighbours.
 const DENSE: f64 = 30.0;
-/// Times that the search for the nearest point is widened.
-const MOST_WIDER: usize = 60;
 
 /// What a drawing adds to a scan.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,19 +48,6 @@ pub fn beside(mesh: &TriMesh, points: &[Vec3], spacing: f64) -> Result<Beside, W
     let positions: Vec<Vec3> =
         kept.iter().filter(|&&i| i as usize >= points.len()).map(|&i| all[i as usize]).collect();
     let grid = Grid::new(points, spacing);
-    let nearest = positions.par_iter().map(|p| nearest(points, &grid, p, spacing)).collect();
+    let nearest = positions.par_iter().map(|p| grid.nearest(points, *p, spacing).unwrap_or(0)).collect();
     Ok(Beside { positions, nearest, off })
-}
-
-/// The point nearest to a position; of two, the lower.
-fn nearest(points: &[Vec3], grid: &Grid, position: &Vec3, mut reach: f64) -> u32 {
-    let square = |i: u32| (points[i as usize] - position).norm_squared();
-    for _ in 0..MOST_WIDER {
-        let near = grid.within(points, *position, reach);
-        if let Some(found) = near.min_by(|&a, &b| square(a).total_cmp(&square(b)).then(a.cmp(&b))) {
-            return found;
-        }
-        reach *= 2.0;
-    }
-    0
 }

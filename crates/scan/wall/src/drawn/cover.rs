@@ -1,7 +1,7 @@
 //! Which candidates become spheres, and how well they cover the surface.
 
-use super::{CORRECTIONS, Candidate, FIRST_SHARE};
-use crate::pairs::{REACH, pairs};
+use super::candidate::Candidate;
+use crate::radii::pairs::{REACH, pairs};
 use geom::{Grid, Vec3};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -9,6 +9,11 @@ use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 use sampling::cells::Cells;
 use std::collections::HashMap;
+
+/// Darts lie at least this share of P apart at first.
+const FIRST_SHARE: f64 = 0.8;
+/// Times that share is corrected.
+const CORRECTIONS: usize = 3;
 
 /// Spheres whose normals are more than about 100° apart are on two sides of a plate and do not see each other.
 const OTHER_SIDE: f64 = -0.2;
@@ -86,15 +91,9 @@ pub(crate) fn deepest(positions: &[Candidate], centres: &[Vec3], radius: f64, ce
     let grid = Grid::new(centres, radius.max(1e-9));
     let depth = |c: &Candidate| {
         let top = if centred { c.at + c.normal * radius } else { c.at };
-        let mut reach = 1.5 * radius;
-        loop {
-            let near = grid.within(centres, top, reach).map(|i| (centres[i as usize] - top).norm());
-            let least = near.fold(f64::INFINITY, f64::min);
-            if least.is_finite() || reach > 1e6 * radius {
-                return ((least - radius).max(0.0), c.at);
-            }
-            reach *= 2.0;
-        }
+        let nearest = grid.nearest(centres, top, 1.5 * radius);
+        let least = nearest.map_or(f64::INFINITY, |i| (centres[i as usize] - top).norm());
+        ((least - radius).max(0.0), c.at)
     };
     let all: Vec<(f64, Vec3)> = positions.par_iter().map(depth).collect();
     all.into_iter().fold((0.0, Vec3::zeros()), |best, d| if d.0 > best.0 { d } else { best })

@@ -8,8 +8,8 @@
 //! projections onto one half-space after the other lead into their intersection (Bregman 1965, doi:10.1016/0041-5553(67)90040-7, theirs
 //! being the general case): the sphere comes to touch both faces of an edge, or the three of a corner.
 
+use super::candidate::{Candidate, Drawing};
 use super::sides::DrawnSurface;
-use super::{Candidate, Drawing};
 use geom::mesh::closest_point;
 use geom::{Boxes, Vec3};
 
