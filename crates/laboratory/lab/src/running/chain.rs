@@ -7,6 +7,7 @@
 use crate::error::{LabError, Result};
 use crate::series::Series;
 use jobs::Lock;
+use record::{ReportedStop, StopCause};
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
 use std::cell::RefCell;
@@ -38,13 +39,13 @@ pub struct Programs {
 }
 
 /// Where one specimen lies, and what it is made from.
-pub(crate) struct Place {
+pub(crate) struct SpecimenFolder {
     pub folder: PathBuf,
     pub specimen: String,
     pub stamp: String,
 }
 
-impl Place {
+impl SpecimenFolder {
     fn holds(&self, name: &str) -> bool {
         std::fs::read_to_string(self.folder.join(name)).is_ok_and(|old| old == self.stamp)
     }
@@ -82,7 +83,7 @@ impl Place {
 
 /// The folder of one specimen, which is ours.
 pub(crate) struct Chain<'a> {
-    pub place: &'a Place,
+    pub place: &'a SpecimenFolder,
     programs: &'a Programs,
     lock: RefCell<Lock>,
 }
@@ -130,17 +131,17 @@ impl Chain<'_> {
     /// A run that a guard has stopped is whole as a file: its report tells, also when it is used again. One that a signal has stopped goes on from
     /// its checkpoint.
     pub(crate) fn dem_run(&self, name: &str) -> Result<Value> {
-        let [scene, run, report] = ["toml", "mcap", "json"].map(|ending| format!("{name}.{ending}"));
+        let [scene, run, json] = ["toml", "mcap", "json"].map(|ending| format!("{name}.{ending}"));
         let stopped = format!("{name}.stopped.mcap");
-        let by_signal = |report: &Value| report["stopped"].as_str() == Some(record::SIGNAL);
-        let made = self.report(&report).ok().filter(|_| self.file(&run).exists());
+        let by_signal = ReportedStop::is_by_signal;
+        let made = self.report(&json).ok().filter(|_| self.file(&run).exists());
         if made.as_ref().is_some_and(by_signal) {
             let file = self.file(&run);
             std::fs::rename(&file, self.file(&stopped)).map_err(LabError::file(&file, "cannot rename it"))?;
         }
         if made.as_ref().is_none_or(by_signal) {
             let threads = self.programs.threads.to_string();
-            let mut words = vec![&*scene, "--threads", &threads, "-q", "--report", &report, "-o", &run];
+            let mut words = vec![&*scene, "--threads", &threads, "-q", "--report", &json, "-o", &run];
             if self.file(&stopped).exists() {
                 words.extend(["--resume", &stopped, "--whole"]);
             }
@@ -148,26 +149,25 @@ impl Chain<'_> {
             // Gone already, or never there.
             let _ = std::fs::remove_file(self.file(&stopped));
         }
-        let report = self.report(&report)?;
-        match report["stopped"].as_str() {
-            Some(record::SIGNAL) => Err(LabError::Interrupted),
-            Some(why) => {
-                let of = report["until"]
-                    .as_f64()
-                    .map_or(String::new(), |until| format!(" of {} s", geom::Shown(until)));
-                let reached =
-                    format!("t = {} s{of}", geom::Shown(report["time"].as_f64().unwrap_or(f64::NAN)));
-                Err(LabError::Stopped { run: name.to_owned(), reached, why: why.to_owned() })
-            }
-            None => Ok(report),
+        let report = self.report(&json)?;
+        let stop = ReportedStop::read(&report).map_err(|e| self.no_report(&json, &e))?;
+        let Some(ReportedStop { cause, text: why, time, until }) = stop else { return Ok(report) };
+        if cause == StopCause::Signal {
+            return Err(LabError::Interrupted);
         }
+        let of = until.map_or(String::new(), |until| format!(" of {} s", geom::Shown(until)));
+        let reached = format!("t = {} s{of}", geom::Shown(time.unwrap_or(f64::NAN)));
+        Err(LabError::Stopped { run: name.to_owned(), reached, why, cause })
     }
 
     fn report(&self, name: &str) -> Result<Value> {
         let file = self.file(name);
         let text = std::fs::read_to_string(&file).map_err(LabError::file(&file, "cannot read it"))?;
-        serde_json::from_str(&text)
-            .map_err(|e| LabError::Content { file, what: format!("is not a report: {e}") })
+        serde_json::from_str(&text).map_err(|e| self.no_report(name, &e))
+    }
+
+    fn no_report(&self, name: &str, why: &serde_json::Error) -> LabError {
+        LabError::Content { file: self.file(name), what: format!("is not a report: {why}") }
     }
 
     /// Measures a run.

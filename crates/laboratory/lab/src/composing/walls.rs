@@ -2,7 +2,7 @@
 //!
 //! `side`: smooth walls. `plate`: rough plates, as rough as grains among each other.
 
-use crate::compose::Composition;
+use crate::composing::compose::Composition;
 use toml_edit::{Item, Table, Value};
 
 /// Smooth walls.

@@ -2,7 +2,7 @@
 //!
 //! Its grains are either one `[[fill]]` without shape and amount, which the test chooses, or `[[particles]]` that are packed already.
 
-use crate::compose::Composition;
+use crate::composing::compose::Composition;
 use crate::error::{LabError, Result};
 use crate::grains::Grains;
 use scene::keys::DRAWN;
@@ -37,6 +37,11 @@ pub struct Sample {
 }
 
 impl Sample {
+    /// What is wrong with it, and the cure.
+    pub(crate) fn refusal(&self, what: impl Into<String>, cure: impl Into<String>) -> LabError {
+        LabError::Sample { file: self.name.clone(), what: what.into(), cure: cure.into() }
+    }
+
     /// Reads a sample; `set` changes keys of it (`KEY=VALUE`).
     ///
     /// # Errors

@@ -1,9 +1,10 @@
 //! What the user should know of a specimen whose programs all came to their end.
 
-use crate::chain::Chain;
 use crate::error::Result;
-use crate::lab::Lab;
 use crate::recipes::{Loading, Part};
+use crate::request::Specimen;
+use crate::running::chain::Chain;
+use crate::sample::Sample;
 use crate::series::{Curve, smoothed};
 use serde_json::Value as Json;
 
@@ -13,33 +14,35 @@ const STILL: f64 = 2e-3;
 /// Rise over three tenths of a curve, from tenth to tenth, that is more than scatter [–].
 const RISE: f64 = 0.05;
 
-impl Lab {
-    /// A warning where the specimen still moves when it is prepared: root mean square speed against √(p/ρ), which is how inertial numbers count.
-    pub(crate) fn moves(&self, loading: &Loading, chain: &Chain) -> Result<Option<String>> {
-        let kinetic = chain.measure("prepare", "settling.csv", &["--settling"])?.column("kinetic")?;
-        let grains = &self.sample.grains;
-        let mass = self.specimen.mass(grains);
-        let speed = (2.0 * kinetic.last().copied().unwrap_or(0.0) / mass).sqrt();
-        let over = speed / (loading.stress / grains.density).sqrt();
-        let words =
-            || format!("the grains still move at {speed:.2e} m/s when the test begins: use a smaller --rest");
-        Ok((loading.stress > 0.0 && over > STILL).then(words))
-    }
+/// A warning where the specimen still moves when it is prepared: root mean square speed against √(p/ρ), which is how inertial numbers count.
+pub(crate) fn moves(
+    (sample, specimen): (&Sample, &Specimen),
+    loading: &Loading,
+    chain: &Chain,
+) -> Result<Option<String>> {
+    let kinetic = chain.measure("prepare", "settling.csv", &["--settling"])?.column("kinetic")?;
+    let grains = &sample.grains;
+    let mass = specimen.mass(grains);
+    let speed = (2.0 * kinetic.last().copied().unwrap_or(0.0) / mass).sqrt();
+    let over = speed / (loading.stress / grains.density).sqrt();
+    let words =
+        || format!("the grains still move at {speed:.2e} m/s when the test begins: use a smaller --rest");
+    Ok((loading.stress > 0.0 && over > STILL).then(words))
+}
 
-    /// A warning where bonds broke in the preparation: the test bonds the grains again.
-    pub(crate) fn broke(&self, part: &Part, chain: &Chain) -> Result<Option<String>> {
-        if !part.bonds || !self.sample.has("bond") {
-            return Ok(None);
-        }
-        let cracks = chain.measure("prepare", "prepared-cracks.csv", &["--cracks"])?.column("time")?.len();
-        let words = || {
-            format!(
-                "in the preparation {} broken, but whole again in the test: use a smaller --stress, or stronger bonds",
-                geom::counted_as(cracks, "bond", ["was", "were"])
-            )
-        };
-        Ok((cracks > 0).then(words))
+/// A warning where bonds broke in the preparation: the test bonds the grains again.
+pub(crate) fn broke(sample: &Sample, part: &Part, chain: &Chain) -> Result<Option<String>> {
+    if !part.bonds || !sample.has("bond") {
+        return Ok(None);
     }
+    let cracks = chain.measure("prepare", "prepared-cracks.csv", &["--cracks"])?.column("time")?.len();
+    let words = || {
+        format!(
+            "in the preparation {} broken, but whole again in the test: use a smaller --stress, or stronger bonds",
+            geom::counted_as(cracks, "bond", ["was", "were"])
+        )
+    };
+    Ok((cracks > 0).then(words))
 }
 
 /// A warning where the stress still rises when the test ends: its peak is the end of the test, and nothing is residual.

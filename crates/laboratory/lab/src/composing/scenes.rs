@@ -1,11 +1,11 @@
 //! The scenes of a specimen: the sample, what the request changes, and what the test adds.
 
-use crate::compose::Composition;
+use crate::composing::compose::Composition;
+use crate::composing::walls;
 use crate::error::Result;
 use crate::lab::Lab;
 use crate::recipes::{Context, Part, Prepared};
 use crate::sample::is_drawn;
-use crate::walls;
 use geom::Vec3;
 use toml_edit::value;
 

@@ -1,14 +1,14 @@
 //! A test on all its specimens: their scenes, their runs, their curves.
 
-use crate::chain::{Chain, Place, Programs, stamp};
-use crate::compose::number;
+use crate::composing::compose::number;
 use crate::error::{LabError, Result};
 use crate::recipes::{Context, Loading, Part, Prepared, Recipe, Stresses, Value};
 use crate::request::{Request, Specimen};
+use crate::running::chain::{Chain, Programs, SpecimenFolder, stamp};
+use crate::running::specimens::{SpecimenOutcome, Specimens};
+use crate::running::warnings::{broke, moves, not_at_rest, not_held, still_rises};
 use crate::sample::Sample;
-use crate::series::Curve;
 use crate::summary::{self, Summary};
-use crate::warnings::{not_at_rest, not_held, still_rises};
 use geom::Vec3;
 use rayon::prelude::*;
 use serde_json::Value as Json;
@@ -26,29 +26,6 @@ pub struct Lab {
     pub(crate) request: Request,
     pub(crate) specimen: Specimen,
     pub(crate) loadings: Vec<Loading>,
-}
-
-/// What became of one specimen.
-#[derive(Debug, Clone)]
-pub enum Outcome {
-    /// Its curve and what that comes to.
-    Tested {
-        /// The curve.
-        curve: Curve,
-        /// Values of the curve.
-        values: Vec<Value>,
-        /// What the user should know.
-        warnings: Vec<String>,
-    },
-    /// A guard has stopped one of its runs: which, and why.
-    Stopped(String),
-}
-
-/// All specimens, in the order of stresses, then seeds.
-#[derive(Debug, Clone)]
-pub struct Specimens {
-    /// Each with what became of it.
-    pub list: Vec<(Loading, Outcome)>,
 }
 
 impl Lab {
@@ -150,7 +127,7 @@ impl Lab {
     /// Runs all specimens, so many at a time; `begins` is called with the name of each, `ends` after it.
     ///
     /// # Errors
-    /// A program that fails, a folder that cannot be written to, a signal. A run that a guard stops is no error: see [`Outcome`].
+    /// A program that fails, a folder that cannot be written to, a signal. A run that a guard stops is no error: see [`SpecimenOutcome`].
     pub fn run(
         &self,
         folder: &Path,
@@ -160,9 +137,9 @@ impl Lab {
         ends: &(dyn Fn() + Sync),
     ) -> Result<Specimens> {
         let places = self.places(folder, programs)?;
-        places.iter().try_for_each(Place::check)?;
+        places.iter().try_for_each(SpecimenFolder::check)?;
         let finished = AtomicUsize::new(0);
-        let one = |(loading, place): (&Loading, &Place), wait: bool| {
+        let one = |(loading, place): (&Loading, &SpecimenFolder), wait: bool| {
             let outcome = self.one(loading, place, programs, (begins, wait))?;
             finished.fetch_add(usize::from(outcome.is_some()), SeqCst);
             outcome.iter().for_each(|_| ends());
@@ -171,7 +148,7 @@ impl Lab {
         // Each thread waits for the programs of one specimen.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(at_once).build()?;
         let all = || self.loadings.par_iter().zip(&places).with_max_len(1);
-        let made: Result<Vec<Option<Outcome>>> = pool.install(|| {
+        let made: Result<Vec<Option<SpecimenOutcome>>> = pool.install(|| {
             let first: Vec<_> = all().map(|of| one(of, false)).collect::<Result<_>>()?;
             // Then those that another process has begun.
             all()
@@ -193,13 +170,13 @@ impl Lab {
     /// A file of the sample or a program that cannot be read; a folder where another process makes other specimens.
     pub fn open(&self, folder: &Path, programs: &Programs) -> Result<Vec<&Loading>> {
         let places = self.places(folder, programs)?;
-        places.iter().try_for_each(Place::check)?;
+        places.iter().try_for_each(SpecimenFolder::check)?;
         let open = self.loadings.iter().zip(places).filter(|(_, place)| !place.is_finished());
         Ok(open.map(|(loading, _)| loading).collect())
     }
 
     /// Where each specimen lies.
-    fn places(&self, folder: &Path, programs: &Programs) -> Result<Vec<Place>> {
+    fn places(&self, folder: &Path, programs: &Programs) -> Result<Vec<SpecimenFolder>> {
         // Stresses are those of each loading: a specimen is the same among others.
         let request = Request { stress: Vec::new(), ..self.request.clone() };
         let asked = format!("{}\n{request:?}", self.recipe.name());
@@ -207,7 +184,7 @@ impl Lab {
         let place = |loading: &Loading| {
             let specimen = self.name(loading);
             let stamp = stream::sha256(format!("{made_from}{loading:?}").as_bytes());
-            Place { folder: folder.join(&specimen), specimen, stamp }
+            SpecimenFolder { folder: folder.join(&specimen), specimen, stamp }
         };
         Ok(self.loadings.iter().map(place).collect())
     }
@@ -216,10 +193,10 @@ impl Lab {
     fn one(
         &self,
         loading: &Loading,
-        place: &Place,
+        place: &SpecimenFolder,
         programs: &Programs,
         (begins, wait): (&(dyn Fn(&str) + Sync), bool),
-    ) -> Result<Option<Outcome>> {
+    ) -> Result<Option<SpecimenOutcome>> {
         let chain = loop {
             if (programs.stop)() {
                 return Err(LabError::Interrupted);
@@ -236,14 +213,16 @@ impl Lab {
         begins(&place.specimen);
         chain.begin()?;
         let outcome = match self.tested(loading, &chain) {
-            Err(stopped @ LabError::Stopped { .. }) => Outcome::Stopped(stopped.to_string()),
+            Err(stopped @ LabError::Stopped { cause, .. }) => {
+                SpecimenOutcome::Stopped { why: stopped.to_string(), cause }
+            }
             other => other?,
         };
         chain.finish()?;
         Ok(Some(outcome))
     }
 
-    fn tested(&self, loading: &Loading, chain: &Chain) -> Result<Outcome> {
+    fn tested(&self, loading: &Loading, chain: &Chain) -> Result<SpecimenOutcome> {
         let of = self.context(loading);
         let (mut warnings, mut prepared, mut step) = (Vec::new(), Prepared::default(), 0.0);
         let preparation = self.recipe.preparation(&of)?;
@@ -252,8 +231,8 @@ impl Lab {
             let report = self.simulate("prepare", &scene, part, chain)?;
             warnings.extend(not_at_rest(&report));
             step = report["dt"].as_f64().unwrap_or(0.0);
-            warnings.extend(self.moves(loading, chain)?);
-            warnings.extend(self.broke(part, chain)?);
+            warnings.extend(moves((&self.sample, &self.specimen), loading, chain)?);
+            warnings.extend(broke(&self.sample, part, chain)?);
             for wall in self.recipe.placed() {
                 let table = chain.measure(
                     "prepare",
@@ -278,7 +257,7 @@ impl Lab {
         let values = self.recipe.values(&of, &curve);
         warnings.extend(still_rises(&curve));
         warnings.extend(self.recipe.warnings(&of, &curve));
-        Ok(Outcome::Tested { curve, values, warnings })
+        Ok(SpecimenOutcome::Tested { curve, values, warnings })
     }
 
     fn simulate(&self, name: &str, scene: &str, part: &Part, chain: &Chain) -> Result<Json> {
@@ -289,9 +268,9 @@ impl Lab {
 
     /// The specimens that a guard has stopped, and why.
     pub fn stopped(&self, specimens: &Specimens) -> Vec<String> {
-        let why = |(loading, outcome): &(Loading, Outcome)| match outcome {
-            Outcome::Stopped(why) => Some(format!("{}: {why}", self.name(loading))),
-            Outcome::Tested { .. } => None,
+        let why = |(loading, outcome): &(Loading, SpecimenOutcome)| match outcome {
+            SpecimenOutcome::Stopped { why, .. } => Some(format!("{}: {why}", self.name(loading))),
+            SpecimenOutcome::Tested { .. } => None,
         };
         specimens.list.iter().filter_map(why).collect()
     }
@@ -301,8 +280,8 @@ impl Lab {
         let values = |stress: f64| -> Vec<Vec<Value>> {
             let of = specimens.list.iter().filter(|(loading, _)| loading.stress == stress);
             of.map(|(_, outcome)| match outcome {
-                Outcome::Tested { values, .. } => values.clone(),
-                Outcome::Stopped(_) => Vec::new(),
+                SpecimenOutcome::Tested { values, .. } => values.clone(),
+                SpecimenOutcome::Stopped { .. } => Vec::new(),
             })
             .collect()
         };
