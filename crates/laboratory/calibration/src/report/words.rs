@@ -2,8 +2,8 @@
 
 use crate::fit::is_misfit;
 use crate::fit::next::Next;
-use crate::judge::{Finding, Judged, Pair};
 use crate::recipe::shown;
+use crate::report::judge::{Finding, Judged, Pair};
 use crate::session::duration;
 use geom::Shown;
 use std::fmt::Write as _;

@@ -1,7 +1,7 @@
 //! The page of a calibration: one HTML file without outside parts.
 
-use crate::judge::Judged;
 use crate::recipe::{Recipe, shown};
+use crate::report::judge::Judged;
 use crate::words;
 use std::fmt::Write as _;
 

@@ -1,7 +1,7 @@
 //! The picture of a calibration: fits, pairs, sensitivities, convergence.
 
-use crate::judge::{Judged, quantile, rank_correlation};
 use crate::recipe::{Part, Recipe, Step};
+use crate::report::judge::{Judged, quantile, rank_correlation};
 use crate::session::{StepEnd, Tried};
 use kuva::prelude::*;
 use plot::COLOURS;

@@ -1,9 +1,9 @@
 //! Targets from files: units, specimens, deviations.
 
-use crate::data::{Point, Target, at, binned, mean, own_scatter};
-use crate::error::{CalibrateError, Place, Result};
+use crate::error::{CalibrateError, Location, Result};
+use crate::measured::data::{Point, Target, at, binned, mean, own_scatter};
+use crate::measured::sheet::Sheet;
 use crate::recipe::shown;
-use crate::sheet::Sheet;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -156,7 +156,7 @@ fn measured(asked: &Asked, x: &str, file: &Path, warnings: &mut Vec<String>) -> 
     let columns: Vec<usize> = [cx, cy].into_iter().chain(own.map(|o| o.0)).collect();
     let rows = sheet.numbers(&columns, &BTreeMap::new())?;
     let refuse =
-        |line: usize, message: String| CalibrateError::Data { place: Place::line(&name, line), message };
+        |line: usize, message: String| CalibrateError::Data { place: Location::line(&name, line), message };
     let mut found = Measured { curve: Vec::new(), deviation: own.map(|_| Vec::new()) };
     let mut before = f64::NEG_INFINITY;
     for (line, row) in &rows {

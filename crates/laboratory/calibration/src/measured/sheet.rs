@@ -1,6 +1,6 @@
 //! Tables of numbers: CSV with one header line, or a report (JSON).
 
-use crate::error::{CalibrateError, Place, Result, hint};
+use crate::error::{CalibrateError, Location, Result, hint};
 use std::collections::BTreeMap;
 
 /// Most bytes of a table.
@@ -40,8 +40,10 @@ impl Sheet {
     /// # Errors
     /// No header, rows of other lengths.
     pub fn parse(file: &str, text: &str) -> Result<Sheet> {
-        let refuse =
-            |line: usize, message: String| CalibrateError::Data { place: Place::line(file, line), message };
+        let refuse = |line: usize, message: String| CalibrateError::Data {
+            place: Location::line(file, line),
+            message,
+        };
         if text.len() > MOST {
             return Err(refuse(1, format!("{} bytes: give a table below {MOST}", text.len())));
         }
@@ -174,7 +176,7 @@ impl Sheet {
     }
 
     fn refuse(&self, line: usize, message: String) -> CalibrateError {
-        CalibrateError::Data { place: Place::line(&self.file, line), message }
+        CalibrateError::Data { place: Location::line(&self.file, line), message }
     }
 }
 
@@ -183,8 +185,10 @@ impl Sheet {
 /// # Errors
 /// Text that is no JSON, a key that is missing or no number.
 pub fn of_report(file: &str, text: &str, key: &str) -> Result<f64> {
-    let refuse =
-        |message: String| CalibrateError::Data { place: Place { file: file.to_owned(), at: None }, message };
+    let refuse = |message: String| CalibrateError::Data {
+        place: Location { file: file.to_owned(), at: None },
+        message,
+    };
     let all: serde_json::Value =
         serde_json::from_str(text).map_err(|e| refuse(format!("is not a report: {e}")))?;
     let mut at = &all;
