@@ -3,10 +3,8 @@
 mod mesh;
 mod plane;
 
-use crate::{
-    SurfaceShape, WallSurface,
-    scale::{Range, around},
-};
+use crate::appearance::scale::{Range, around};
+use crate::{SurfaceShape, WallSurface};
 use geom::{Plane, Vec3};
 
 /// A plane or mesh, ready to draw; all at t = 0.

@@ -1,15 +1,14 @@
 //! Thin walls in a picture: each veils what is behind it, the farther ones first.
 
 use super::{
-    PictureOptions,
     lens::{Lens, SAMPLES},
-    light::LAMP,
+    options::PictureOptions,
     paint::Pane,
-    shadow::Shadow,
+    shadow::{LAMP, Shadow},
     splat::{Depths, Met},
     theme::Theme,
 };
-use crate::colour;
+use crate::appearance::colour;
 use geom::Vec3;
 use rayon::prelude::*;
 
@@ -47,7 +46,7 @@ struct Piece {
 type Veil = [f32; 2];
 
 /// All thin walls in a picture.
-pub struct Glaze {
+pub struct ThinWalls {
     pieces: Vec<Piece>,
     /// Between the grains and the wall spheres, and before both, for the rows that are held; empty without thin walls.
     veils: Vec<[Veil; 2]>,
@@ -57,11 +56,11 @@ pub struct Glaze {
     shade: f32,
 }
 
-impl Glaze {
+impl ThinWalls {
     /// What is drawn of `panes`; no row is held yet.
-    pub fn new(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Glaze {
+    pub fn new(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> ThinWalls {
         let shade = Theme::of(options.dark).shade;
-        Glaze { pieces: pieces(panes, lens, options), veils: Vec::new(), first: 0, shade }
+        ThinWalls { pieces: pieces(panes, lens, options), veils: Vec::new(), first: 0, shade }
     }
 
     /// Draws these rows of samples, from one to before another, and lets others go: panes where they are nearer than
@@ -73,7 +72,7 @@ impl Glaze {
         [solid, glass]: [&Depths; 2],
         shadow: &Shadow,
     ) {
-        let (Glaze { pieces, shade, .. }, width) = (&*self, lens.size[0]);
+        let (ThinWalls { pieces, shade, .. }, width) = (&*self, lens.size[0]);
         if pieces.is_empty() {
             return;
         }

@@ -1,6 +1,7 @@
 //! The points that stand out farthest, each way: what a camera must see to see everything.
 
-use crate::{scale::Range, spheres::Spheres};
+use crate::appearance::scale::Range;
+use crate::things::spheres::Spheres;
 use geom::Vec3;
 
 /// Spheres of a layer that are looked at, at most: their outline hardly depends on more.

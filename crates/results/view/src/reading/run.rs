@@ -1,7 +1,8 @@
 //! Reads a run, or walls: grains and wall spheres over time, planes and meshes, how walls move, and what is shown besides.
 
-use crate::show::{LayerHead, Show};
-use crate::{Arrows, Extras, Motion, Role, ViewError, WallSurface, extras};
+use crate::reading::show::{LayerHead, Show};
+use crate::things::extras;
+use crate::{Arrows, Extras, Motion, Role, ViewError, WallSurface};
 use record::column::{BROKEN, RADIUS, WALL};
 use record::metadata::{CLUMPS, MATERIALS};
 use record::topic::{BONDS, CONTACTS, PARTICLES, SURFACES, WALLS};
@@ -11,7 +12,7 @@ use stream::mcap::{Event, McapError};
 use stream::{Table, Values};
 
 /// What is known of a run so far.
-struct Run<'a, S> {
+struct ViewedRun<'a, S> {
     name: &'a str,
     extras: Extras,
     show: &'a mut S,
@@ -54,7 +55,7 @@ pub fn show_run(
     extras: Extras,
     show: &mut impl Show,
 ) -> Result<BTreeMap<&'static str, usize>, ViewError> {
-    let mut run = Run {
+    let mut run = ViewedRun {
         name,
         extras,
         show,
@@ -98,7 +99,7 @@ pub fn show_run(
     Ok(run.messages)
 }
 
-impl<S: Show> Run<'_, S> {
+impl<S: Show> ViewedRun<'_, S> {
     fn count(&mut self, topic: &'static str) {
         *self.messages.entry(topic).or_default() += 1;
     }

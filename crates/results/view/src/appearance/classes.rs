@@ -1,6 +1,6 @@
 //! Size classes: a few sizes as they are, many sizes between round diameters.
 
-use crate::scale::{Range, readable, ticks};
+use crate::appearance::scale::{Range, readable, ticks};
 use std::collections::BTreeSet;
 
 /// Most classes.

@@ -14,7 +14,7 @@ const BLEND: f64 = 0.6;
 
 /// The bodies among spheres, as the eye sees them.
 #[derive(Default)]
-pub(super) struct Kin {
+pub(super) struct JoinedBodies {
     /// Body of each sphere and rod, or [`NOTHING`]; empty without bodies.
     body: Vec<u32>,
     /// Spheres of each body: where they begin and end in `members`, and how far they bend normals [m].
@@ -23,7 +23,7 @@ pub(super) struct Kin {
     members: Vec<([f64; 3], f64)>,
 }
 
-impl Kin {
+impl JoinedBodies {
     /// Adds a body of spheres with these numbers; its number. `smooth` gives centre and radius of each; none where they
     /// have no creases to smooth.
     pub fn add(&mut self, numbers: &[usize], smooth: Vec<([f64; 3], f64)>) -> u32 {

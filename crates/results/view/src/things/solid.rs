@@ -3,7 +3,7 @@
 //! A run records the spheres of a clump and its volume, not its mesh. Where the hull of the centres has that volume, the mesh is the hull.
 //! What is drawn is what touches others: the mesh with round edges, all places within the radius of the spheres of it.
 
-use crate::spheres::Spheres;
+use crate::things::spheres::Spheres;
 use geom::{Vec3, hull::hull_faces, mesh::TriMesh};
 use record::ClumpRecord;
 

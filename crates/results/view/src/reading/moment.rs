@@ -1,6 +1,6 @@
 //! One moment of everything, for a picture.
 
-use crate::show::{LayerHead, Show, add_surface};
+use crate::reading::show::{LayerHead, Show, add_surface};
 use crate::{DrawnTable, GrainCount, Role, ViewError, WallSurface};
 use stream::Table;
 

@@ -1,10 +1,8 @@
 //! A plane as a sheet: a rectangle around everything, cut off where other planes stand, with a grid of round spacing.
 
 use super::Sheet;
-use crate::{
-    WallSurface,
-    scale::{Range, round_below},
-};
+use crate::WallSurface;
+use crate::appearance::scale::{Range, round_below};
 use geom::{Plane, Vec3};
 
 /// How far a plane is shown beyond all else, as a share of the size of all else [–].
@@ -105,7 +103,8 @@ fn shortened([a, b]: [Vec3; 2], by: &Plane) -> Option<[Vec3; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Motion, SurfaceShape, sheet::sheets};
+    use crate::things::sheet::sheets;
+    use crate::{Motion, SurfaceShape};
 
     fn surface(point: [f64; 3], normal: [f64; 3]) -> WallSurface {
         let plane = Plane::new(point.into(), normal.into()).expect("a direction");

@@ -1,6 +1,6 @@
 //! All moments of everything, for a film or a series of files; the caller chooses what is kept of each state.
 
-use crate::show::{LayerHead, Show, add_surface};
+use crate::reading::show::{LayerHead, Show, add_surface};
 use crate::{DrawnTable, Role, ViewError, WallSurface};
 use std::borrow::Cow;
 use stream::Table;

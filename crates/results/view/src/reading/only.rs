@@ -1,6 +1,7 @@
 //! Shows only some of the grains: those whose field has a wanted value.
 
-use crate::{LayerHead, Role, Show, ViewError, WallSurface, field};
+use crate::appearance::field;
+use crate::{LayerHead, Role, Show, ViewError, WallSurface};
 use stream::Table;
 
 /// Which grains are shown.

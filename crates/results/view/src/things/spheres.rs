@@ -1,6 +1,7 @@
 //! Positions and radii from a table, checked.
 
-use crate::{ViewError, scale::Range};
+use crate::ViewError;
+use crate::appearance::scale::Range;
 use geom::{LARGEST, Vec3};
 use std::collections::HashSet;
 use stream::{Table, Values};
