@@ -4,6 +4,7 @@ mod below_a_hopper;
 mod bonds;
 mod brute;
 mod cracks;
+mod documented;
 mod flow;
 mod kinds;
 mod made;

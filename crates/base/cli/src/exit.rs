@@ -1,6 +1,7 @@
 //! Exit codes: 0 done (also when the reader closed the pipe), 1 failed, 2 wrong usage, 3 stopped by a guard.
 
 use crate::Report;
+use record::StopCause;
 use std::{error::Error, fmt, io};
 
 /// Exit code of wrong usage.
@@ -31,20 +32,23 @@ pub fn usage(message: impl Into<String>) -> anyhow::Error {
 pub struct Stopped {
     /// Which guard, where, when, at what value.
     pub reason: String,
+    /// What stopped it; `None`: nothing that a run or a signal stops by, such as the answer of a check.
+    pub cause: Option<StopCause>,
     /// What was done until then.
     pub report: Option<Report>,
 }
 
 impl Stopped {
-    /// An error that ends the tool with exit code 3 after writing `report`.
-    pub fn error(reason: impl Into<String>, report: Option<Report>) -> anyhow::Error {
-        anyhow::Error::new(Stopped { reason: reason.into(), report })
+    /// An error that ends the tool with exit code 3 after writing `report`; a `cause` is its field `stop`.
+    pub fn error(reason: impl Into<String>, cause: Option<StopCause>, report: Report) -> anyhow::Error {
+        let report = if cause.is_some() { report.with("stop", cause) } else { report };
+        anyhow::Error::new(Stopped { reason: reason.into(), cause, report: Some(report) })
     }
 }
 
 /// An error that ends the tool with exit code 3 because a signal has asked it to end; the same command goes on.
 pub fn stopped_by_signal(reason: impl Into<String>) -> anyhow::Error {
-    Stopped::error(reason, Some(Report::new("").with("stopped", record::SIGNAL)))
+    Stopped::error(reason, Some(StopCause::Signal), Report::new("").with("stopped", record::SIGNAL))
 }
 
 impl fmt::Display for Stopped {
@@ -99,7 +103,7 @@ mod tests {
         let broken = Err::<(), _>(io::Error::from(io::ErrorKind::BrokenPipe)).context("stdout").unwrap_err();
         assert_eq!(code(&broken), 0);
         assert_eq!(code(&usage("no").context("option --x")), 2);
-        assert_eq!(code(&Stopped::error("overlap", None).context("dem")), 3);
+        assert_eq!(code(&Stopped::error("overlap", None, Report::new("")).context("dem")), 3);
         assert_eq!(code(&anyhow!("disk")), 1);
     }
 

@@ -13,6 +13,7 @@ use anyhow::Context;
 use clap::{
     Arg, ArgMatches, Args as _, Command, FromArgMatches as _, builder::Resettable, parser::ValueSource,
 };
+use record::StopCause;
 use serde_json::{Map, Value, json};
 use std::{
     io::{ErrorKind, Write},
@@ -152,8 +153,8 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
         let _ = tell(name, report, &common, start);
     }
     if code(&error) == exit::STOPPED {
-        let by = report.as_ref().and_then(|r| r.fields.get("stopped")?.as_str());
-        let (stopped, signal) = (one_line(&error), by == Some(record::SIGNAL));
+        let cause = error.downcast_ref::<Stopped>().and_then(|stopped| stopped.cause);
+        let (stopped, signal) = (one_line(&error), cause == Some(StopCause::Signal));
         // What keeps the record says so itself where it cannot be written.
         let _ = stream::reads::note_stop(Stop { stopped, signal });
     }

@@ -24,6 +24,12 @@ pub fn unit(random: &mut Pcg64Mcg) -> f64 {
     (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
+/// A standard normal number: Box & Muller (1958), doi:10.1214/aoms/1177706645.
+pub fn normal(random: &mut Pcg64Mcg) -> f64 {
+    let (a, b) = (unit(random), unit(random));
+    (-2.0 * libm::log(1.0 - a)).sqrt() * libm::cos(TAU * b)
+}
+
 /// The orientation that three numbers from 0 to 1 stand for; even numbers give orientations that are uniform on SO(3): Shoemake (1992), Graphics
 /// Gems III.
 pub fn orientation([share, a, b]: [f64; 3]) -> UnitQuaternion<f64> {

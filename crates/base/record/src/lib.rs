@@ -18,8 +18,10 @@ mod material;
 mod messages;
 pub mod metadata;
 pub mod name;
+mod stop;
 mod surface;
 mod table;
+mod times;
 pub mod topic;
 
 pub use clump::ClumpRecord;
@@ -30,8 +32,10 @@ pub use error::{RecordError, positive};
 pub use limits::{BondRange, Sizes};
 pub use material::{MaterialRecord, POISSON, is_poisson};
 pub use messages::{LogMessage, SIGNAL, Watermark};
+pub use stop::{Guard, ReportedStop, StopCause};
 pub use surface::{SurfaceShape, WallRecord, home, moved, to_json as motion_to_json};
 pub use table::TableBuilder;
+pub use times::RunTimes;
 
 /// Metadata of one record: text by key.
 pub type Map = std::collections::BTreeMap<String, String>;

@@ -1,9 +1,9 @@
 //! Messages of the topics `/log` and `/crossings/watermark`.
 
-use crate::{RecordError, topic};
+use crate::{RecordError, StopCause, topic};
 use serde::{Deserialize, Serialize};
 
-/// Why a run was stopped that a signal ended.
+/// The text of a message about a run that a signal stopped; what stopped it is in [`LogMessage::stop`].
 pub const SIGNAL: &str = "by a signal";
 
 /// `kind` of a message that says why a run was stopped.
@@ -18,21 +18,24 @@ pub struct LogMessage {
     pub text: String,
     /// Simulated time [s].
     pub time: f64,
+    /// What stopped the run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stop: Option<StopCause>,
 }
 
 impl LogMessage {
     /// Something that the user should know.
     pub fn note(time: f64, text: &str) -> LogMessage {
-        LogMessage { kind: "note".to_owned(), text: text.to_owned(), time }
+        LogMessage { kind: "note".to_owned(), text: text.to_owned(), time, stop: None }
     }
 
     /// Why a run was stopped.
-    pub fn stopped(time: f64, text: &str) -> LogMessage {
-        LogMessage { kind: STOPPED.to_owned(), text: text.to_owned(), time }
+    pub fn stopped(time: f64, text: &str, cause: StopCause) -> LogMessage {
+        LogMessage { kind: STOPPED.to_owned(), text: text.to_owned(), time, stop: Some(cause) }
     }
 
     /// The message of some bytes that says why the run was stopped, if they do.
-    pub fn stop(data: &[u8]) -> Option<LogMessage> {
+    pub fn read_stop(data: &[u8]) -> Option<LogMessage> {
         serde_json::from_slice(data).ok().filter(LogMessage::is_stop)
     }
 

@@ -7,21 +7,21 @@ use thiserror::Error;
 
 /// A place in a file.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Place {
+pub struct Location {
     /// The file, as it was named.
     pub file: String,
     /// Line and column, from 1; a column of 0 is not known.
     pub at: Option<(usize, usize)>,
 }
 
-impl Place {
+impl Location {
     /// A line of a file, from 1.
-    pub fn line(file: &str, line: usize) -> Place {
-        Place { file: file.to_owned(), at: Some((line, 0)) }
+    pub fn line(file: &str, line: usize) -> Location {
+        Location { file: file.to_owned(), at: Some((line, 0)) }
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.at {
             Some((line, 0)) => write!(f, "{}:{line}", self.file),
@@ -38,9 +38,9 @@ pub enum CalibrateError {
     #[error("{0}")]
     Usage(String),
     #[error("{place}: {message}")]
-    Recipe { place: Place, message: String },
+    Recipe { place: Location, message: String },
     #[error("{place}: {message}")]
-    Data { place: Place, message: String },
+    Data { place: Location, message: String },
     #[error("{}: {what}", .path.display())]
     File { path: PathBuf, what: &'static str, source: io::Error },
     #[error("{}: {message}", .folder.display())]

@@ -1,28 +1,22 @@
 //! From laboratory curves to parameters, with intervals that say what the data cannot tell.
 
-mod data;
 mod emulator;
 mod error;
 mod fit;
-pub mod guess;
-mod judge;
-mod page;
-mod picture;
-mod prior;
+mod measured;
 pub mod recipe;
+mod report;
 pub mod session;
-mod sheet;
-mod target;
 pub mod trial;
-pub mod words;
 
-pub use data::{Point, Target};
-pub use error::{CalibrateError, Place};
+pub use error::{CalibrateError, Location};
 pub use fit::next::{Next, next_tests};
-pub use judge::{Finding, Judged, Pair, PartSensitivity, StepFit, judge};
-pub use page::html;
-pub use picture::draw;
+pub use measured::data::{Point, Target};
 pub use recipe::Recipe;
+pub use report::judge::{Finding, Judged, Pair, PartSensitivity, StepFit, judge};
+pub use report::page::html;
+pub use report::picture::draw;
+pub use report::{guess, words};
 
 /// Samples of the posterior of a step: CSV.
 pub fn samples(recipe: &Recipe, end: &session::StepEnd) -> String {

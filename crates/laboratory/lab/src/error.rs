@@ -1,6 +1,6 @@
 //! What a laboratory test refuses, and what can go wrong while it runs.
 
-use crate::sample::Sample;
+use record::StopCause;
 use scene::{SceneError, SceneSetupError};
 use std::path::PathBuf;
 use thiserror::Error;
@@ -34,7 +34,7 @@ pub enum LabError {
     Program { specimen: String, program: String, code: i32, words: String },
     /// A guard has stopped the run of a specimen.
     #[error("{run}: stopped by a guard at {reached}: {why}")]
-    Stopped { run: String, reached: String, why: String },
+    Stopped { run: String, reached: String, why: String, cause: StopCause },
     #[error("cannot start threads")]
     Threads(#[from] rayon::ThreadPoolBuildError),
     #[error(
@@ -48,11 +48,6 @@ pub enum LabError {
 }
 
 impl LabError {
-    /// What is wrong with a sample, and its cure.
-    pub(crate) fn sample(sample: &Sample, what: impl Into<String>, cure: impl Into<String>) -> LabError {
-        LabError::Sample { file: sample.name.clone(), what: what.into(), cure: cure.into() }
-    }
-
     pub(crate) fn file(
         file: impl Into<PathBuf>,
         what: &'static str,

@@ -10,25 +10,23 @@
 //! programs of one specimen in its folder, [`lab`] all specimens, and [`summary`] judges their curves. The tests compose dem-run and dem-measure from
 //! outside, so that each step can be swapped or repeated by hand.
 
-mod chain;
-mod compose;
+mod composing;
+mod curves;
 mod error;
-pub mod grains;
-pub mod lab;
 pub mod recipes;
-pub mod request;
-pub mod sample;
-pub mod scenes;
-pub mod series;
-pub mod summary;
-mod walls;
-mod warnings;
+mod running;
+mod specimen;
 
-pub use chain::Programs;
+pub use composing::scenes;
+pub use curves::{series, summary};
 pub use error::{LabError, Result};
-pub use lab::{Lab, Outcome, Specimens};
+pub use lab::Lab;
 pub use recipes::{Recipe, Stresses};
 pub use request::Request;
+pub use running::chain::Programs;
+pub use running::lab;
+pub use running::specimens::{SpecimenOutcome, Specimens};
 pub use sample::Sample;
 pub use series::{Column, Curve};
+pub use specimen::{grains, request, sample};
 pub use summary::{Figure, Level, Summary};

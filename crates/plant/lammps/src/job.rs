@@ -16,6 +16,7 @@ use crate::process::{Engine, Place, Running};
 use dem::setup::{Particle, Setup};
 use geom::{Shown, Vec3};
 use nalgebra::{Quaternion, UnitQuaternion};
+use record::StopCause;
 use run::{Progress, RunFile, Schedule};
 use std::collections::{BTreeMap, HashSet};
 use std::io::{BufReader, Write};
@@ -90,7 +91,7 @@ impl Job<'_> {
         LammpsError::Dump { time: self.time(), what: what.into() }
     }
 
-    /// Runs LAMMPS; why it was stopped early.
+    /// Runs LAMMPS; what stopped it early.
     ///
     /// # Errors
     /// LAMMPS that fails, output that cannot be written.
@@ -100,7 +101,7 @@ impl Job<'_> {
         engine: &Engine,
         place: Place,
         stop: fn() -> bool,
-    ) -> Result<Option<String>> {
+    ) -> Result<Option<StopCause>> {
         let (running, pipes) = Running::start(engine, &place, stop)?;
         let mut dumps: Vec<(&str, Parts)> = Vec::new();
         for (name, pipe) in DUMPS.into_iter().zip(pipes) {
@@ -124,7 +125,7 @@ impl Job<'_> {
             return Ok(None);
         }
         if stop() {
-            return Ok(Some(record::SIGNAL.to_owned()));
+            return Ok(Some(StopCause::Signal));
         }
         match (status, ended) {
             (_, Ended::Wrong(what)) => Err(self.wrong(what)),

@@ -15,6 +15,7 @@ use crate::job::Job;
 use crate::process::{Engine, Place};
 use crate::refusal::{self, Allowed};
 use dem::setup::{Setup, WallShape};
+use record::{SIGNAL, StopCause};
 use run::{Progress, RunError, RunFile, Schedule};
 use scene::keys::{Patches, Sampling};
 use scene::{Plan, Scene};
@@ -44,8 +45,11 @@ pub enum Origin<'a> {
 /// What was done.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Outcome {
-    /// Why it was stopped before its end.
+    /// Why it was stopped before its end, as its log has it.
     pub stopped: Option<String>,
+    /// What stopped it.
+    #[serde(skip)]
+    pub stop: Option<StopCause>,
     /// Time reached [s].
     pub time: f64,
     /// Time step [s].
@@ -192,7 +196,7 @@ pub fn run<W: Write>(
     file.note(0.0, "computed by LAMMPS; forces are sampled at instants, and the file has no checkpoint")?;
     prepared.warnings().iter().try_for_each(|warning| file.note(0.0, warning))?;
     let mut job = Job::new(setup, arrivals, schedule, &prepared.deck, report);
-    let reason = match origin {
+    let stop = match origin {
         Origin::Dumps(dumps) => {
             let ended = job.read(&mut file, dumps)?;
             job.whole(ended)?;
@@ -215,11 +219,12 @@ pub fn run<W: Write>(
     };
     let step = job.last.unwrap_or(0);
     let time = step as f64 * schedule.dt;
-    if let Some(reason) = &reason {
-        file.stopped(time, reason)?;
+    if let Some(cause) = stop {
+        file.stopped(time, SIGNAL, cause)?;
     }
     let outcome = Outcome {
-        stopped: reason,
+        stopped: stop.map(|_| SIGNAL.to_owned()),
+        stop,
         time,
         dt: schedule.dt,
         steps: step,

@@ -1,7 +1,7 @@
 //! What a run had written before it was resumed, for an output that holds the whole run.
 
 use crate::error::Result;
-use record::{FRAME, LogMessage, metadata, nanoseconds, topic};
+use record::{FRAME, LogMessage, RunTimes, metadata, nanoseconds, topic};
 use scene::SceneError;
 use std::io::{Read, Write};
 use stream::mcap::{Event, McapError, Reader, Writer};
@@ -30,7 +30,7 @@ impl Earlier {
                 break;
             };
             if name == metadata::TIME {
-                earlier.start = map.get("start").and_then(|start| start.parse().ok()).unwrap_or(0.0);
+                earlier.start = RunTimes::read(&map).start.unwrap_or(0.0);
             }
         }
         Ok(earlier)
@@ -90,5 +90,5 @@ const FRAMES: [&str; 8] = [
 
 /// Whether a message in JSON is still true when the run goes on.
 fn holds(topic: &str, data: &[u8]) -> bool {
-    topic != topic::CHECKPOINT && !(topic == topic::LOG && LogMessage::stop(data).is_some())
+    topic != topic::CHECKPOINT && !(topic == topic::LOG && LogMessage::read_stop(data).is_some())
 }

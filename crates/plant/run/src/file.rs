@@ -7,7 +7,7 @@ use crate::start::{Head, in_file};
 use dem::setup::{Crossing, Particle, Wall, WallShape};
 use dem::{BondState, ClumpState, ContactRecord, Crack, WallForce};
 use geom::Vec3;
-use record::{FRAME, LogMessage, Watermark, json, nanoseconds, topic};
+use record::{FRAME, LogMessage, StopCause, Watermark, json, nanoseconds, topic};
 use scene::keys::Precision;
 use scene::{Plan, Scene};
 use stages::outlet::crossing::{self, CrossingRow};
@@ -175,8 +175,8 @@ impl<W: Write> RunFile<W> {
     ///
     /// # Errors
     /// A write that fails.
-    pub fn stopped(&mut self, time: f64, reason: &str) -> Result<()> {
-        self.log(&LogMessage::stopped(time, reason))
+    pub fn stopped(&mut self, time: f64, reason: &str, cause: StopCause) -> Result<()> {
+        self.log(&LogMessage::stopped(time, reason, cause))
     }
 
     fn log(&mut self, message: &LogMessage) -> Result<()> {

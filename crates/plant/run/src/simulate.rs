@@ -11,11 +11,12 @@ use crate::schedule::Schedule;
 use crate::servos::ServoHeld;
 use crate::settling::{self, Settling};
 use crate::start::not_yet_over;
+use crate::stop::Stopping;
 use crate::supply::Supply;
 use dem::device::Device;
 use dem::setup::Crossing;
 use dem::{Halt, Simulation};
-use record::{LogMessage, SIGNAL, json, nanoseconds, topic};
+use record::{LogMessage, StopCause, json, nanoseconds, topic};
 use scene::keys::Output;
 use scene::{Below, Plan, Scene};
 use serde::Serialize;
@@ -34,8 +35,11 @@ const AT_ONCE: u64 = 1 << 16;
 /// What was done.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Outcome {
-    /// Why the run was stopped: the message of a guard, or [`SIGNAL`].
+    /// Why the run was stopped, as its log has it.
     pub stopped: Option<String>,
+    /// What stopped the run, and the sentence about it without its time.
+    #[serde(skip)]
+    pub stop: Option<(StopCause, String)>,
     /// The guard that has stopped it.
     #[serde(skip)]
     pub halt: Option<Halt>,
@@ -223,11 +227,11 @@ pub fn run<W: Write>(
         }
         // After the frame: a run that is resumed does not write it again.
         if stop() {
-            break Some(SIGNAL.to_owned());
+            break Some(Stopping::signal());
         }
         match run.let_in() {
             // The signal also ended the stage upstream; what had come in is in the checkpoint.
-            Err(_) if stop() => break Some(SIGNAL.to_owned()),
+            Err(_) if stop() => break Some(Stopping::signal()),
             other => other?,
         }
         if let Err(halt) = run.step(step, stop, report) {
@@ -304,7 +308,7 @@ impl<W: Write> Run<W> {
     }
 
     /// Writes the end of the file, with the `reason` of a run that was stopped.
-    fn finish(mut self, reason: Option<String>) -> Result<(Outcome, W)> {
+    fn finish(mut self, reason: Option<Stopping>) -> Result<(Outcome, W)> {
         self.outcome.integration = self.integration();
         if reason.is_none() {
             self.supply.check_rest()?;

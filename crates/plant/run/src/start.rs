@@ -9,7 +9,7 @@ use crate::supply::Supply;
 use dem::Simulation;
 use dem::setup::{Setup, WallShape, Zone, ZoneMotion};
 use geom::Shown;
-use record::{BondRange, Map, MaterialRecord, Sizes, json, metadata};
+use record::{BondRange, Map, MaterialRecord, RunTimes, Sizes, json, metadata};
 use scene::input::ZoneRecord;
 use scene::plan::NO_DENSITY;
 use scene::{Below, Plan, Scene, SceneError};
@@ -174,7 +174,8 @@ impl Head {
         schedule: &Schedule,
         sampling: Option<u64>,
     ) -> impl Iterator<Item = (&'static str, Map)> {
-        let times = [("dt", dt), ("start", start), ("end", schedule.last as f64 * schedule.dt)];
+        let end = schedule.last as f64 * schedule.dt;
+        let times = RunTimes { dt: Some(dt), start: Some(start), end: Some(end) };
         let every = sampling.map(|steps| steps as f64 * dt);
         let outlet = |(mut zone, i): (ZoneRecord, usize)| {
             zone.samples = every.filter(|_| zone.zone.motion == ZoneMotion::Recorded);
@@ -183,7 +184,7 @@ impl Head {
         let all = [
             (metadata::SCENE, self.scene),
             (metadata::MATERIALS, self.materials),
-            (metadata::TIME, Map::from(times.map(|(key, time)| (key.to_owned(), time.to_string())))),
+            (metadata::TIME, times.to_map()),
             (metadata::SIZES, self.sizes),
             (metadata::OUTLETS, self.outlets.into_iter().zip(0..).map(outlet).collect()),
             (metadata::CLUMPS, self.clumps),

@@ -4,30 +4,48 @@ use crate::checkpoint::{Checkpoint, Pieces};
 use crate::error::Result;
 use crate::simulate::{Before, Run, Written};
 use dem::Halt;
-use record::{LogMessage, nanoseconds};
-use scene::advice::explain_halt;
+use record::{LogMessage, SIGNAL, StopCause, nanoseconds};
+use scene::advice::{at, explain_fact, stop_cause};
 use scene::{Scene, SceneError};
 use serde::Serialize;
 use std::io::Write;
 use stream::mcap::Writer;
 
+/// What ends a run early.
+pub(crate) struct Stopping {
+    cause: StopCause,
+    /// When a guard found it [s].
+    time: Option<f64>,
+    /// What happened and what to do, without the time.
+    why: String,
+}
+
+impl Stopping {
+    pub(crate) fn signal() -> Stopping {
+        Stopping { cause: StopCause::Signal, time: None, why: SIGNAL.to_owned() }
+    }
+}
+
 /// The message of a guard. What overlaps before the first step is an error of the scene, not of the calculation.
-pub(crate) fn guard(scene: &Scene, halt: &Halt) -> Result<String, SceneError> {
+pub(crate) fn guard(scene: &Scene, halt: &Halt) -> Result<Stopping, SceneError> {
     match halt {
         Halt::Overlap { time, id, partner, overlap, .. } if *time <= 0.0 => {
             let (name, partner) = (scene.text.name.clone(), partner.to_string());
             Err(SceneError::Inside { name, id: *id, partner, overlap: *overlap })
         }
-        other => Ok(explain_halt(other)),
+        other => {
+            let (cause, time, why) = (stop_cause(other), Some(other.time()), explain_fact(other));
+            Ok(Stopping { cause, time, why })
+        }
     }
 }
 
 impl<W: Write> Run<W> {
-    /// The message of a guard, which the outcome keeps.
-    pub(crate) fn halted(&mut self, scene: &Scene, halt: Halt) -> Result<String, SceneError> {
-        let text = guard(scene, &halt)?;
+    /// The message of a guard; the outcome keeps the guard itself.
+    pub(crate) fn halted(&mut self, scene: &Scene, halt: Halt) -> Result<Stopping, SceneError> {
+        let stopping = guard(scene, &halt)?;
         self.outcome.halt = Some(halt);
-        Ok(text)
+        Ok(stopping)
     }
 
     pub(crate) fn write_checkpoint(&mut self) -> Result<()> {
@@ -39,16 +57,17 @@ impl<W: Write> Run<W> {
 
     /// Stops the run: the file ends with the reason and a checkpoint. A state without numbers is useless: the checkpoint is then that of
     /// the last state that was held, and what has crossed since then crosses again.
-    pub(crate) fn stop(&mut self, reason: String) -> Result<()> {
+    pub(crate) fn stop(&mut self, stopping: Stopping) -> Result<()> {
         let finite = self.sim.is_finite();
         let before = self.before.take().filter(|_| !finite);
-        let reason = match &before {
+        let Stopping { cause, time, why } = stopping;
+        let why = match &before {
             Some(Before { state, .. }) => {
-                format!("{reason}; the checkpoint is of t = {:.6e} s, before it", state.time())
+                format!("{why}; the checkpoint is of t = {:.6e} s, before it", state.time())
             }
-            None if finite => reason,
+            None if finite => why,
             None => format!(
-                "{reason}; the run cannot be resumed from here: --resume continues from the checkpoint before it (output.checkpoint)"
+                "{why}; the run cannot be resumed from here: --resume continues from the checkpoint before it (output.checkpoint)"
             ),
         };
         if finite {
@@ -56,7 +75,8 @@ impl<W: Write> Run<W> {
             self.sample()?;
             self.write_crossings()?;
         }
-        self.log(&LogMessage::stopped(self.sim.time(), &reason))?;
+        let text = time.map_or(why.clone(), |time| at(time, &why));
+        self.log(&LogMessage::stopped(self.sim.time(), &text, cause))?;
         match before {
             Some(Before { given, state }) => {
                 save(&mut self.writer, state.time(), &self.written, given, state)?;
@@ -64,7 +84,7 @@ impl<W: Write> Run<W> {
             None if finite => self.write_checkpoint()?,
             None => {}
         }
-        self.outcome.stopped = Some(reason);
+        (self.outcome.stopped, self.outcome.stop) = (Some(text), Some((cause, why)));
         Ok(())
     }
 }

@@ -17,7 +17,7 @@
 //! Differences are taken seed by seed, so scatter that both runs share does not count. Where
 //! runs of one seed diverge by chaos, the interval is that of two independent means.
 
-use crate::point::{Error, Point, Sample};
+use crate::point::{Error, MeasuredRun, Point};
 use measure::statistics::Mean;
 
 /// What a setting is compared with.
@@ -68,7 +68,7 @@ pub fn errors(points: &[Point], truth: Truth, norm: Norm, repeats: Repeats) -> V
 }
 
 /// The worst of several phases; `None` as in [`errors`].
-fn worst(samples: &[Sample], points: &[Point], truth: Truth, norm: Norm) -> Option<Error> {
+fn worst(samples: &[MeasuredRun], points: &[Point], truth: Truth, norm: Norm) -> Option<Error> {
     let places = samples.first()?.value.len();
     let right: Vec<&[f64]> = match truth {
         Truth::Value(..) => Vec::new(),
@@ -99,7 +99,7 @@ fn worst(samples: &[Sample], points: &[Point], truth: Truth, norm: Norm) -> Opti
     })
 }
 
-fn error(samples: &[Sample], points: &[Point], truth: Truth, norm: Norm) -> Option<Error> {
+fn error(samples: &[MeasuredRun], points: &[Point], truth: Truth, norm: Norm) -> Option<Error> {
     let mut pairs: Vec<(&[f64], Vec<f64>)> = Vec::new();
     // Runs that were only repeated for their time say nothing new.
     let mut seeds: Vec<u64> = Vec::new();
@@ -144,7 +144,7 @@ mod tests {
     use super::*;
 
     fn point(values: &[f64]) -> Point {
-        let sample = |(k, v): (usize, &f64)| Sample { value: vec![*v], work: 1.0, seed: k as u64 };
+        let sample = |(k, v): (usize, &f64)| MeasuredRun { value: vec![*v], work: 1.0, seed: k as u64 };
         Point { setting: Vec::new(), samples: values.iter().enumerate().map(sample).collect(), failed: None }
     }
 
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn profiles_are_compared_place_by_place() {
         let profile = |value: &[f64]| Point {
-            samples: vec![Sample { value: value.to_vec(), work: 1.0, seed: 0 }],
+            samples: vec![MeasuredRun { value: value.to_vec(), work: 1.0, seed: 0 }],
             ..point(&[])
         };
         let points = [profile(&[3.0, 4.0]), profile(&[3.0, 5.0]), profile(&[1.0])];

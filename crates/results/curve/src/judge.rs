@@ -5,7 +5,7 @@ use crate::sweep::Sweep;
 use crate::sweep::measure::Measure;
 use crate::sweep::script::Counter;
 use crate::sweep::work::{self, Made};
-use crate::{Choice, Error, Point, Repeats, Sample, Truth, errors, front, percent, recommend, sentence};
+use crate::{Choice, Error, MeasuredRun, Point, Repeats, Truth, errors, front, percent, recommend, sentence};
 use crate::{amount, change, order, share_of_time};
 
 /// Times of a point.
@@ -123,7 +123,7 @@ fn measured(
                 unit = found.unit;
                 // Shorter steps are more steps; what counts is the cost of the setting.
                 let share = 1.0 - job.shorten;
-                point.samples.push(Sample { value: found.values, work: share * work, seed: job.repeat });
+                point.samples.push(MeasuredRun { value: found.values, work: share * work, seed: job.repeat });
                 all[job.setting].push(Cost { seconds: share * seconds, steps: share * steps, prepared });
             }
         }

@@ -20,7 +20,7 @@ mod words;
 pub use error::{Norm, Repeats, Truth, errors};
 pub use front::{Choice, front, recommend};
 pub use judge::{Cost, Judged, judge};
-pub use point::{Error, Point, Sample};
+pub use point::{Error, MeasuredRun, Point};
 pub use study::{CurveError, PHASES, Study, TrueValue, Wanted, Work};
 pub use table::csv;
 pub use words::{amount, change, order, percent, sentence, share_of_time};

@@ -4,7 +4,7 @@ use measure::statistics::median;
 
 /// One run of a setting.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sample {
+pub struct MeasuredRun {
     /// What was measured: one number, or one for each place of a profile.
     pub value: Vec<f64>,
     /// What it cost, in the unit of the sweep.
@@ -42,7 +42,7 @@ pub struct Point {
     /// Key and value of what was varied, as written.
     pub setting: Vec<(String, String)>,
     /// Its runs; none when it cannot be run.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<MeasuredRun>,
     /// Why it cannot be run.
     pub failed: Option<String>,
 }

@@ -112,12 +112,12 @@ pub fn sentence(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Sample;
+    use crate::MeasuredRun;
 
     fn point(value: &str, work: f64) -> Point {
         let setting =
             vec![("safety".to_owned(), value.to_owned()), ("precision".to_owned(), "f64".to_owned())];
-        Point { setting, samples: vec![Sample { value: vec![1.0], work, seed: 0 }], failed: None }
+        Point { setting, samples: vec![MeasuredRun { value: vec![1.0], work, seed: 0 }], failed: None }
     }
 
     #[test]

@@ -6,52 +6,33 @@
 //! still being written, in memory for a frame or two, and gives rows of numbers under named columns with units, a
 //! [`Summary`] by name, and what to draw. Nothing here reads files, prints or draws.
 
-pub mod ball;
-pub mod bed;
 pub mod bonds;
-mod cells;
-mod chord;
-mod clumped;
-pub mod coordination;
-mod cubic;
-pub mod cylinder;
-pub mod domain;
-pub mod energy;
+mod bulk;
+pub mod definition;
 mod error;
-pub mod flow;
-pub mod forces;
-mod frame;
-pub mod impact;
+mod geometry;
+mod mechanics;
 pub mod observer;
 pub mod overview;
-pub mod path;
-pub mod periodic;
-pub mod plane_force;
-pub mod porosity;
-pub mod profile;
-pub mod radial;
-pub mod region;
-pub mod repose;
-pub mod residence;
-pub mod run;
-pub mod segregation;
-pub mod selection;
-pub mod settling;
+mod reading;
+pub mod registry;
+mod shape;
 mod sheet;
 pub mod statistics;
-pub mod strain;
-pub mod stress;
-mod table;
-pub mod track;
-pub mod wall_force;
-mod wall_record;
-pub mod wear;
+mod transport;
+mod walls;
 
 pub use bonds::{Bond, Bonds};
+pub use bulk::{porosity, profile, segregation};
 pub use error::MeasureError;
-pub use frame::{Contact, Contacts, Crossing, Frame, Partner};
+pub use geometry::{ball, cylinder, periodic, region};
+pub use mechanics::{coordination, domain, energy, forces, plane_force, settling, strain, stress};
 pub use observer::{Observer, OfFrame, PerFrame};
-pub use run::{Ledger, Run, RunMessage, WallSpheres};
-pub use selection::{Selected, Which};
+pub use reading::{
+    Contact, Contacts, Crossing, ForceOnWall, Frame, Ledger, Partner, Run, RunMessage, Selected, WallForces,
+};
+pub use reading::{WallSpheres, Which, path, run, selection, settled};
+pub use shape::{bed, radial, repose};
 pub use sheet::{Chart, Curve, Head, Look, Panel, Row, Summary};
-pub use wall_record::{ForceOnWall, WallForces};
+pub use transport::{flow, residence, track};
+pub use walls::{impact, wall_force, wear};

@@ -25,9 +25,6 @@ pub trait Observer {
     }
 }
 
-/// A hair of slack [s]: frames have their times in nanoseconds.
-pub const SLACK: f64 = 1e-9;
-
 /// Something measured on one frame at a time.
 pub trait OfFrame {
     /// The columns of its rows.

@@ -5,14 +5,11 @@
 use crate::bonds::BondNumbers;
 use crate::energy::Energy;
 use crate::observer::Observer;
-use crate::sheet::{Curve, Look, Panel, Row};
+use crate::sheet::{CURVES, Curve, Look, Panel, Row};
 use crate::{Crossing, Frame, Run, RunMessage, WallForces};
 
 /// Most points of a curve.
 const POINTS: usize = 500;
-
-/// Most curves of a panel: there are no more colours.
-pub(crate) const CURVES: usize = 8;
 
 /// Most terms of the energy ledger that are shown.
 const TERMS: usize = 6;

@@ -47,6 +47,9 @@ impl Summary {
     }
 }
 
+/// Most curves of a panel: there are no more colours.
+pub(crate) const CURVES: usize = 8;
+
 /// How a curve looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Look {

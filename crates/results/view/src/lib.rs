@@ -6,46 +6,31 @@
 //! whatever can [`Show`] them: a page, one [`Moment`], or a [`Series`] of moments; those give pictures, films and files. The caller opens
 //! files and reads clouds. Uses `record` for the formats of runs; knows no engine.
 
-mod bodies;
-mod camera;
-mod classes;
-mod colour;
-mod diagram;
+mod appearance;
 mod error;
-mod extras;
-mod field;
 pub mod film;
-mod moment;
-mod only;
-mod outline;
 mod page;
 pub mod picture;
-mod run;
-mod scale;
-mod series;
-mod sheet;
-mod show;
-mod solid;
-mod spheres;
-mod surface;
+mod reading;
+mod things;
 pub mod vtk;
 
-pub use bodies::GrainCount;
-pub use camera::Camera;
-pub use colour::{Map, Rgb};
-pub use diagram::{Diagram, DiagramCurve};
+pub use appearance::camera::Camera;
+pub use appearance::colour::{Map, Rgb};
 pub use error::ViewError;
-pub use extras::{Arrows, Extras};
 pub use geom::Motion;
-pub use moment::Moment;
-pub use only::{Chosen, Only, Wanted};
 pub use page::{Page, PageContent, PageOptions};
 pub use picture::{DrawnTable, Image, PictureOptions, Survey};
+pub use reading::diagram::{Diagram, DiagramCurve};
+pub use reading::moment::Moment;
+pub use reading::only::{Chosen, Only, Wanted};
+pub use reading::run::show_run;
+pub use reading::series::{Series, Span};
+pub use reading::show::{LayerHead, Show};
 pub use record::SurfaceShape;
-pub use run::show_run;
-pub use series::{Series, Span};
-pub use show::{LayerHead, Show};
-pub use surface::WallSurface;
+pub use things::bodies::GrainCount;
+pub use things::extras::{Arrows, Extras};
+pub use things::surface::WallSurface;
 
 /// What a table of spheres or points is, and so how it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

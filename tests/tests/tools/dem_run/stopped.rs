@@ -67,6 +67,32 @@ fn a_guard_ends_the_run_with_code_3_a_reason_and_a_checkpoint() {
     );
 }
 
+/// Programs read the cause from the report and from the log, and need no word of the sentence beside it.
+#[test]
+fn the_report_and_the_log_of_a_stopped_run_name_the_guard() {
+    let folder = with(&poured());
+    for (set, guard) in [("guards.overlap=0.01", "overlap"), ("guards.motion=0.0005", "motion")] {
+        let done =
+            tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap", "--report", "r.json", "--set", set]);
+        assert_eq!(done.code, 3, "{set}: {}", done.stderr);
+        let report: serde_json::Value =
+            serde_json::from_slice(&fs::read(folder.path().join("r.json")).unwrap()).unwrap();
+        let stop = serde_json::json!({"by": "guard", "guard": guard});
+        assert_eq!(report["stop"], stop, "{report}");
+        assert!(report["stopped"].as_str().is_some_and(|text| text.starts_with("t = ")), "{report}");
+        let log = events(&folder.path().join("run.mcap")).0.into_iter().find_map(|event| match event {
+            Event::Bytes { topic, data, .. } if topic == "/log" => {
+                serde_json::from_slice::<serde_json::Value>(&data).ok().filter(|m| m["kind"] == "stopped")
+            }
+            _ => None,
+        });
+        assert_eq!(log.expect("a message of the stop")["stop"], stop);
+    }
+    succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap", "--report", "r.json"]);
+    let report = fs::read_to_string(folder.path().join("r.json")).unwrap();
+    assert!(!report.contains("\"stop\""), "nothing stopped it: {report}");
+}
+
 /// Starts a run that takes minutes.
 fn long_run(folder: &Path) -> std::process::Child {
     // Under nohup, whose children ignore a lost terminal, this one does not.

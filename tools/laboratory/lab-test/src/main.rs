@@ -48,7 +48,8 @@ fn lab_test(args: Args) -> anyhow::Result<Report> {
             let (n, all) = (stopped.len(), specimens.list.len());
             Err(Stopped::error(
                 format!("a guard has stopped {n} of {all} specimens, which the results leave out: {first}"),
-                Some(report),
+                specimens.stop(),
+                report,
             ))
         }
     }

@@ -5,14 +5,14 @@ use crate::words;
 use anyhow::{Context, anyhow};
 use cli::{Output, Report};
 use lab::recipes::Loading;
-use lab::{Curve, Lab, Outcome, Specimens, Stresses, Summary};
+use lab::{Curve, Lab, SpecimenOutcome, Specimens, Stresses, Summary};
 use measure::{Chart, Look};
 use std::io::Write;
 use std::path::Path;
 
 /// Prints what the user should know of one specimen.
-pub fn warn(name: &str, outcome: &Outcome) {
-    if let Outcome::Tested { warnings, .. } = outcome {
+pub fn warn(name: &str, outcome: &SpecimenOutcome) {
+    if let SpecimenOutcome::Tested { warnings, .. } = outcome {
         warnings.iter().for_each(|warning| cli::warn(&format!("{name}: {warning}")));
     }
 }
@@ -20,8 +20,8 @@ pub fn warn(name: &str, outcome: &Outcome) {
 /// The curves that came to their end.
 fn curves(specimens: &Specimens) -> impl Iterator<Item = (&Loading, &Curve)> {
     specimens.list.iter().filter_map(|(loading, outcome)| match outcome {
-        Outcome::Tested { curve, .. } => Some((loading, curve)),
-        Outcome::Stopped(_) => None,
+        SpecimenOutcome::Tested { curve, .. } => Some((loading, curve)),
+        SpecimenOutcome::Stopped { .. } => None,
     })
 }
 

@@ -204,11 +204,15 @@ fn simulate(
         counted(outcome.frames, "frame")
     );
     let report = Report::new(summary).with_all(&outcome);
-    match &outcome.stopped {
-        Some(reason) => {
+    match outcome.stop {
+        Some(cause) => {
             let time = geom::Shown(outcome.time);
             let again = if args.dir.is_some() { ": the same command continues" } else { "" };
-            Err(Stopped::error(format!("stopped {reason} at t = {time} s{again}"), Some(report)))
+            Err(Stopped::error(
+                format!("stopped by a {} at t = {time} s{again}", cause.name()),
+                Some(cause),
+                report,
+            ))
         }
         None => Ok(report),
     }

@@ -12,9 +12,8 @@ use cli::{Output, Report, Source, Stopped};
 use device::Accelerator;
 use misplaced::MCAP;
 use parts::Saved;
-use record::SIGNAL;
+use record::StopCause;
 use run::{Checkpoint, Earlier, Outcome, Progress, RunError, Settings, run};
-use scene::advice::DEVICE_FAILED;
 use scene::{Input, Plan, Scene, SceneError, SceneSetupError};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -279,11 +278,8 @@ fn simulate(
     warn(&outcome);
     let report = Report::new(summary(&outcome, ledger)).with_all(&outcome);
     let report = report.with("until", scene.keys.time.until);
-    match outcome.stopped {
-        Some(reason) => {
-            let wider = outcome.halt.as_ref().map_or(Vec::new(), continued::wider);
-            Err(Stopped::error(stopped(&args.output, scene, (&reason, &wider), outcome.time), Some(report)))
-        }
+    match &outcome.stop {
+        Some((cause, _)) => Err(Stopped::error(stopped(&args.output, scene, &outcome), Some(*cause), report)),
         None => Ok(report),
     }
 }
@@ -322,28 +318,32 @@ fn summary(outcome: &Outcome, ledger: bool) -> String {
 const UNMEASURED: &str = ", integration error not measured (output.energy = true measures it)";
 
 /// Why a run stopped, and how to continue it.
-fn stopped(output: &Output, scene: &Scene, (reason, wider): (&str, &[String]), time: f64) -> String {
+fn stopped(output: &Output, scene: &Scene, outcome: &Outcome) -> String {
+    let Some((cause, why)) = &outcome.stop else { return String::new() };
     let file = continued::file(output);
     let of = scene.keys.time.until.map_or(String::new(), |until| format!(" of {} s", geom::Shown(until)));
-    let reached = format!("t = {} s{of}", geom::Shown(time));
-    if reason.contains(DEVICE_FAILED) {
-        let on = file.map(|file| continued::sentence(&file, &[]));
-        return format!(
-            "stopped at {reached}: {reason}{}",
-            on.map_or(String::new(), |on| format!("; {on}, without --device"))
-        );
+    let reached = format!("t = {} s{of}", geom::Shown(outcome.time));
+    match cause {
+        StopCause::Signal => {
+            let how = file
+                .map_or("continue with --resume FILE, the file that holds this output".to_owned(), |file| {
+                    continued::sentence(&file, &[])
+                });
+            format!("stopped by a signal at {reached}; {how}")
+        }
+        StopCause::Device => {
+            let on = file.map(|file| format!("; {}, without --device", continued::sentence(&file, &[])));
+            format!(
+                "stopped at {reached}: {}{}",
+                outcome.stopped.as_ref().unwrap_or(why),
+                on.unwrap_or_default()
+            )
+        }
+        StopCause::Guard { .. } => {
+            let wider = outcome.halt.as_ref().map_or(Vec::new(), continued::wider);
+            let past = file.filter(|_| !wider.is_empty()).map(|file| continued::sentence(&file, &wider));
+            let past = past.map_or(String::new(), |past| format!("; to go past the guard, {past}"));
+            format!("stopped by a guard at {reached}: {why}{past}")
+        }
     }
-    if reason != SIGNAL {
-        let past = file.filter(|_| !wider.is_empty()).map(|file| continued::sentence(&file, wider));
-        let past = past.map_or(String::new(), |past| format!("; to go past the guard, {past}"));
-        // The message of a guard begins with its time, too.
-        let why = reason.strip_prefix("t = ").and_then(|rest| rest.split_once(" s: "));
-        let why = why.map_or(reason, |(_, why)| why);
-        return format!("stopped by a guard at {reached}: {why}{past}");
-    }
-    let how = file
-        .map_or("continue with --resume FILE, the file that holds this output".to_owned(), |file| {
-            continued::sentence(&file, &[])
-        });
-    format!("stopped by a signal at {reached}; {how}")
 }

@@ -93,7 +93,7 @@ fn run(args: &Args, study: &Study, open: &Open) -> anyhow::Result<()> {
     }
     cli::stop_in_order();
     let progress = Progress::new("runs", open.jobs.len() as u64);
-    let begins = |job: &curve::sweep::script::Job| progress.say(job.name.clone());
+    let begins = |job: &curve::sweep::script::SweepRun| progress.say(job.name.clone());
     work::run(&open.jobs, jobs, cli::stop_requested, &begins, &|| progress.add(1)).map_err(refused)
 }
 

@@ -1,14 +1,14 @@
 //! The report, the sentences as Markdown, and the lines of `--print-commands`.
 
 use cli::Report;
-use curve::sweep::script::Job;
+use curve::sweep::script::SweepRun;
 use curve::{Choice, Judged};
 use std::collections::BTreeMap;
 use stream::quoted;
 
 /// A line to run each of the runs.
-pub fn commands(open: &[&Job]) -> String {
-    let line = |job: &&Job| {
+pub fn commands(open: &[&SweepRun]) -> String {
+    let line = |job: &&SweepRun| {
         let script = job.file("run.sh");
         let script = quoted(&std::path::absolute(&script).unwrap_or(script).display().to_string());
         format!("bash {script}  # {}\n", job.dem_run())

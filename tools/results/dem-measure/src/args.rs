@@ -1,10 +1,13 @@
 //! The command line.
 
+use crate::measures::{Chosen, GROUP};
 use clap::{ArgGroup, Parser};
 use cli::{OutPath, Output, Source, usage};
+use geom::Vec3;
 use geom::number::finite;
-use geom::{Plane, Shape, Vec3};
+use measure::definition::{Bins, Frames, GivenShape};
 use measure::profile::Turn;
+use measure::registry::{ALL, Entry};
 
 const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x0,y0,z0,x1,y1,z1,r | \
     cone:x0,y0,z0,x1,y1,z1,r0,r1 | halfspace:px,py,pz,nx,ny,nz | prism:FILE.json | mesh:FILE | mesh:FILE,units=mm | mesh:FILE,transform=MATRIX.txt | all (where no volume \
@@ -23,86 +26,13 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
 /// Measure a run (MCAP), also while it is still being written; CSV (or JSON) to stdout
 #[derive(Parser, Debug)]
 #[command(after_help = SHAPES)]
-#[command(group(ArgGroup::new("measure").required(true)))]
+#[command(group(ArgGroup::new(GROUP).required(true)))]
 pub struct Args {
     /// The run (MCAP), - for stdin
     #[arg(value_name = "RUN.mcap", default_value = "-", hide_default_value = true)]
     pub run: Source,
-    /// Angle of a heap, with its 95 % interval, in several directions
-    #[arg(long, group = "measure")]
-    pub repose: bool,
-    /// Mass and number of grains through PLANE over time
-    #[arg(long, group = "measure", value_name = "PLANE", allow_hyphen_values = true)]
-    pub flow: Option<Plane>,
-    /// Velocity, solid fraction and size on a grid
-    #[arg(long, group = "measure")]
-    pub profile: bool,
-    /// A burden around AXIS (px,py,pz and up along it): height, mass and thickness of each material, in rings
-    #[arg(long, group = "measure", value_name = "AXIS", allow_hyphen_values = true)]
-    pub radial: Option<Plane>,
-    /// How well two kinds of grains are mixed: Lacey's index, difference of the centres of mass
-    #[arg(long, group = "measure")]
-    pub segregation: bool,
-    /// The energy ledger and how well it closes
-    #[arg(long, group = "measure")]
-    pub energy: bool,
-    /// How far the grains are from rest: mean unbalanced force over mean contact force, kinetic energy
-    #[arg(long, group = "measure")]
-    pub settling: bool,
-    /// Strain of the periodic domain, and the mean stress in it, where the scene has [domain.strain]
-    #[arg(long, group = "measure")]
-    pub domain: bool,
-    /// Coordination numbers, with and without rattlers
-    #[arg(long, group = "measure")]
-    pub contacts: bool,
-    /// Bonds over time: how many are whole, how many broke and how, and the fragments that they leave
-    #[arg(long, group = "measure")]
-    pub bonds: bool,
-    /// Each bond that broke: when, where, by what, with what energy
-    #[arg(long, group = "measure")]
-    pub cracks: bool,
-    /// Mass and size of each piece that whole bonds hold together
-    #[arg(long, group = "measure")]
-    pub fragments: bool,
-    /// Share of the mass that passes sieves before and after, by pieces, and Marsal's breakage
-    #[arg(long, group = "measure")]
-    pub grading: bool,
-    /// Distribution of contact forces
-    #[arg(long, group = "measure")]
-    pub forces: bool,
-    /// Porosity in SHAPE
-    #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
-    pub porosity: Option<GivenShape>,
-    /// Force on walls, and sliding work, of the contacts in SHAPE over time; all: also of runs that hold forces on whole walls
-    #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
-    pub wall_force: Option<GivenShape>,
-    /// Mean stress in SHAPE, of the contacts and bonds in it, over time
-    #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
-    pub stress: Option<GivenShape>,
-    /// Mean strain of the grains since the first frame
-    #[arg(long, group = "measure")]
-    pub strain: bool,
-    /// Force through PLANE, of the contacts between grains on its two sides, over time
-    #[arg(long, group = "measure", value_name = "PLANE", allow_hyphen_values = true)]
-    pub plane_force: Option<Plane>,
-    /// Map of force and sliding work on walls in SHAPE: by wall sphere, or by --cell
-    #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
-    pub wear: Option<GivenShape>,
-    /// How long grains stay in SHAPE
-    #[arg(long, group = "measure", value_name = "SHAPE", value_parser = shape)]
-    pub residence: Option<GivenShape>,
-    /// Path and velocity of the grains with these ids
-    #[arg(long, group = "measure", value_name = "ID,ID,…", value_delimiter = ',')]
-    pub track: Option<Vec<u64>>,
-    /// Impacts: contact time, deepest overlap, restitution
-    #[arg(long, group = "measure")]
-    pub impact: bool,
-    /// Height of a bed: the median of its surface
-    #[arg(long, group = "measure")]
-    pub bed_height: bool,
-    /// Angle of the surface of a bed, downhill to SIDE: x- x+ y- y+ z- z+
-    #[arg(long, group = "measure", value_name = "SIDE", value_parser = side, allow_hyphen_values = true)]
-    pub bed_slope: Option<Vec3>,
+    #[command(flatten)]
+    pub measure: Chosen,
 
     /// The frame nearest to S [s], as in dem-view
     #[arg(long, value_name = "S", value_parser = cli::seconds, help_heading = "Which frames")]
@@ -191,93 +121,33 @@ pub struct Args {
     pub output: Output,
 }
 
-/// A shape and its text.
-#[derive(Debug, Clone)]
-pub struct GivenShape {
-    /// As given.
-    pub text: String,
-    /// The shape.
-    pub shape: Shape,
-}
-
-/// Numbers of bins.
-#[derive(Debug, Clone, Copy)]
-pub enum Bins {
-    /// Along the axis.
-    One(usize),
-    /// Along x, y, z.
-    All([usize; 3]),
-}
-
 impl Args {
     /// Refuses options of other measures than the one that is asked for.
-    pub fn check(&self, measure: &str) -> anyhow::Result<()> {
-        let options: [(&str, bool, &[&str]); 20] = [
-            ("--up", self.up.is_some(), &["--repose", "--segregation", "--bed-height", "--bed-slope"]),
-            ("--sectors", self.sectors.is_some(), &["--repose", "--radial"]),
-            ("--outer", self.outer.is_some(), &["--radial"]),
-            ("--fractions", self.fractions.is_some(), &["--repose", "--bed-slope"]),
-            ("--bin", self.bin.is_some(), &["--repose", "--bed-slope"]),
-            ("--ground", self.ground.is_some(), &["--repose", "--bed-height", "--radial"]),
-            ("--side", self.side.is_some(), &["--repose"]),
-            (
-                "--within",
-                self.within.is_some(),
-                &["--repose", "--flow", "--profile", "--strain", "--bed-height"],
-            ),
-            ("--span", self.span.is_some(), &["--flow"]),
-            ("--axis", self.axis.is_some(), &["--profile"]),
-            ("--bins", self.bins.is_some(), &["--profile", "--radial"]),
-            ("--turn-deg", self.turn_deg.is_some(), &["--profile"]),
-            ("--mean", self.mean, &["--profile"]),
-            ("--field", !self.field.is_empty(), &["--profile"]),
-            ("--cell", self.cell.is_some(), &["--segregation", "--wear"]),
-            ("--split", self.split.is_some(), &["--segregation"]),
-            ("--kind", self.kind.is_some(), &["--segregation"]),
-            ("--wall", self.wall.is_some(), &["--wall-force", "--wear"]),
-            ("--sieves", self.sieves.is_some(), &["--grading"]),
-            ("--on-walls", self.on_walls, &["--forces"]),
-        ];
-        for (option, given, of) in options {
-            if given && !of.contains(&measure) {
-                let of = of.join(" and ");
-                return Err(usage(format!("{option}: is an option of {of}: leave it out with {measure}")));
-            }
+    pub fn check(&self) -> anyhow::Result<()> {
+        let Entry { name, options, frames, .. } = *self.measure.entry;
+        if let Some(option) = self.measure.options.iter().find(|option| !options.contains(*option)) {
+            let of = ALL.iter().filter(|entry| entry.options.contains(option));
+            let of: Vec<String> = of.map(|entry| format!("--{}", entry.name)).collect();
+            let of = of.join(" and ");
+            return Err(usage(format!("--{option}: is an option of {of}: leave it out with --{name}")));
         }
-        if measure == "--fragments" && (self.all || self.from.is_some()) {
+        if frames == Frames::One && (self.all || self.from.is_some()) {
             let option = if self.all { "--all" } else { "--from" };
             return Err(usage(format!(
-                "{option}: --fragments lists the pieces of one frame: choose it with --time or --until"
+                "{option}: --{name} lists the pieces of one frame: choose it with --time or --until"
             )));
         }
-        let single = [
-            "--flow",
-            "--energy",
-            "--settling",
-            "--domain",
-            "--bonds",
-            "--cracks",
-            "--grading",
-            "--residence",
-            "--wall-force",
-            "--plane-force",
-            "--stress",
-            "--strain",
-            "--wear",
-            "--impact",
-        ]
-        .contains(&measure);
-        if single && (self.time.is_some() || self.last) {
+        if !frames.has_single() && (self.time.is_some() || self.last) {
             let option = if self.last { "--last" } else { "--time" };
             return Err(usage(format!(
-                "{option}: {measure} is measured over time: choose frames with --from and --until"
+                "{option}: --{name} is measured over time: choose frames with --from and --until"
             )));
         }
         Ok(())
     }
 }
 
-fn shape(text: &str) -> Result<GivenShape, String> {
+pub fn shape(text: &str) -> Result<GivenShape, String> {
     // Everything is above a plane that is far enough below.
     let wanted = if text == "all" { "halfspace:0,0,-1e100,0,0,1" } else { text };
     let shape = mesh::shape(wanted).map_err(|e| e.to_string())?;
@@ -298,7 +168,7 @@ fn pair(text: &str) -> Result<[f64; 2], String> {
     numbers(text).ok_or_else(|| "give two numbers, such as 0.2,0.8".into())
 }
 
-fn side(text: &str) -> Result<Vec3, String> {
+pub fn side(text: &str) -> Result<Vec3, String> {
     let names = ["x-", "x+", "y-", "y+", "z-", "z+"];
     let found = names.iter().position(|name| *name == text).ok_or("give one of x- x+ y- y+ z- z+")?;
     Ok(Vec3::ith(found / 2, if found % 2 == 0 { -1.0 } else { 1.0 }))

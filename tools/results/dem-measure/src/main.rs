@@ -1,9 +1,9 @@
-//! Measures a run: heap angle, flow, profiles, segregation, energy, contacts, bonds, porosity, wall force, wear,
-//! residence, impacts, bed height.
+//! Measures a run: `measure::registry` holds what can be measured.
 
 mod args;
 mod around;
 mod choose;
+mod measures;
 mod sheet;
 
 use anyhow::{Context, anyhow};
@@ -26,7 +26,7 @@ fn measure_run(args: Args) -> anyhow::Result<Report> {
     }
     let place = || format!("{}: {what}", args.run);
     let source = args.run.open()?;
-    let mut sheet = Sheet::new(args.output.open_text()?, args.json, what);
+    let mut sheet = Sheet::new(args.output.open_text()?, args.json, &what);
     // Rows are kept only where they are drawn: a run may be longer than the memory.
     let (mut run, mut rows, mut kept): (Run, Vec<Row>, Vec<Row>) = Default::default();
     let progress = Progress::new("frames", 0);
@@ -51,7 +51,7 @@ fn measure_run(args: Args) -> anyhow::Result<Report> {
         out.write_all(&plot::chart(file, &observer.chart(&kept)).map_err(|e| anyhow!("--plot {e}"))?)?;
         out.commit()?;
     }
-    Ok(report(what, count, &summary))
+    Ok(report(&what, count, &summary))
 }
 
 fn report(what: &str, rows: u64, summary: &Summary) -> Report {

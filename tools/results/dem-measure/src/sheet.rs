@@ -10,15 +10,16 @@ use std::io::Write;
 pub struct Sheet {
     out: OutputStream,
     json: bool,
-    what: &'static str,
+    measure: String,
     begun: bool,
     rows: u64,
 }
 
 impl Sheet {
     /// Nothing written yet.
-    pub fn new(out: OutputStream, json: bool, what: &'static str) -> Sheet {
-        Sheet { out, json, what, begun: false, rows: 0 }
+    pub fn new(out: OutputStream, json: bool, option: &str) -> Sheet {
+        let measure = option.trim_start_matches('-').to_owned();
+        Sheet { out, json, measure, begun: false, rows: 0 }
     }
 
     /// Writes rows and sends them on: a reader may be waiting at the other end of a pipe.
@@ -80,7 +81,7 @@ impl Sheet {
             return table.flush();
         }
         let columns: Vec<Value> = heads.iter().map(|h| json!({"name": h.name, "unit": h.unit})).collect();
-        let (what, columns) = (json!(self.what.trim_start_matches('-')), Value::Array(columns));
+        let (what, columns) = (json!(self.measure), Value::Array(columns));
         write!(self.out, "{{\n \"measure\": {what},\n \"columns\": {columns},\n \"rows\": [")
     }
 }

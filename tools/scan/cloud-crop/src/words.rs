@@ -131,7 +131,7 @@ pub fn checked(counts: &Cropped, report: Report) -> anyhow::Result<Report> {
             let plural =
                 if parts.len() == 1 { "1 part is".to_owned() } else { format!("{} parts are", parts.len()) };
             let reason = format!("{plural} beyond the outer shape; the largest: {}", told(first));
-            Err(cli::Stopped::error(reason, Some(report)))
+            Err(cli::Stopped::error(reason, None, report))
         }
     }
 }

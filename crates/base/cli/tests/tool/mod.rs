@@ -42,7 +42,7 @@ pub fn main() -> ExitCode {
                 end(action)?;
                 out.commit()?;
                 if action == "stop" {
-                    return Err(Stopped::error("particle 5: overlap 31 %", Some(report)));
+                    return Err(Stopped::error("particle 5: overlap 31 %", None, report));
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! Why a run stops: each reason has its numbers as fields, and says what happened; what to do about it is up to the caller.
+//! Why a run stops: each reason has its numbers as fields, and says what happened; when ([`Halt::time`]) and what to do about it is up to the caller.
 
 use crate::model::{BondedParticle, Entrance, SetupError};
 use geom::Vec3;
@@ -10,7 +10,7 @@ use thiserror::Error;
 pub enum Halt {
     /// A particle overlaps another or a wall too far.
     #[error(
-        "t = {time:.6e} s: particle {id} at {} overlaps {partner} by {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %)",
+        "particle {id} at {} overlaps {partner} by {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %)",
         shown(position), 100.0 * share, 100.0 * limit
     )]
     Overlap {
@@ -33,7 +33,7 @@ pub enum Halt {
     },
     /// A particle comes in on top of another.
     #[error(
-        "t = {time:.6e} s: particle {id} comes in by {by} at {} on top of {partner}: they overlap by \
+        "particle {id} comes in by {by} at {} on top of {partner}: they overlap by \
          {overlap:.3e} m, {:.1} % of the smaller radius (limit {:.1} %)",
         shown(position), 100.0 * share, 100.0 * limit
     )]
@@ -57,7 +57,7 @@ pub enum Halt {
     },
     /// A particle moved too far in one step, or its state is not a number.
     #[error(
-        "t = {time:.6e} s: particle {id} at {} moves {motion:.3e} m in one step, {:.1} % of its radius (limit {:.1} %)",
+        "particle {id} at {} moves {motion:.3e} m in one step, {:.1} % of its radius (limit {:.1} %)",
         shown(position), 100.0 * share, 100.0 * limit
     )]
     Motion {
@@ -75,10 +75,7 @@ pub enum Halt {
         limit: f64,
     },
     /// The state of a particle is not a number any more.
-    #[error(
-        "t = {time:.6e} s: particle {id} at {}: its force or its motion is not finite (NaN)",
-        shown(position)
-    )]
+    #[error("particle {id} at {}: its force or its motion is not finite (NaN)", shown(position))]
     NotANumber {
         /// When [s].
         time: f64,
@@ -88,7 +85,7 @@ pub enum Halt {
         position: Vec3,
     },
     /// The device that makes the steps has failed; the state is that of `time`.
-    #[error("t = {time:.6e} s: the device has failed: {what}")]
+    #[error("the device has failed: {what}")]
     Device {
         /// When [s].
         time: f64,
@@ -96,9 +93,7 @@ pub enum Halt {
         what: String,
     },
     /// A strained cell in which a particle would meet itself.
-    #[error(
-        "t = {time:.6e} s: the domain is {length:.4e} m long along {axis}: particles need at least {least:.4e} m"
-    )]
+    #[error("the domain is {length:.4e} m long along {axis}: particles need at least {least:.4e} m")]
     CellTooSmall {
         /// When [s].
         time: f64,
@@ -111,7 +106,7 @@ pub enum Halt {
     },
     /// The position of a wall that follows a force is not a number any more.
     #[error(
-        "t = {time:.6e} s: wall '{wall}', which follows a force, has a position that is not finite (NaN): the force of the particles on it was \
+        "wall '{wall}', which follows a force, has a position that is not finite (NaN): the force of the particles on it was \
          {push:e} N"
     )]
     WallNotANumber {
@@ -123,7 +118,7 @@ pub enum Halt {
         push: f64,
     },
     /// A wall on a spring is faster than it may be.
-    #[error("t = {time:.6e} s: wall '{wall}' on its spring moves at {speed:.4e} m/s (limit {limit:.4e} m/s)")]
+    #[error("wall '{wall}' on its spring moves at {speed:.4e} m/s (limit {limit:.4e} m/s)")]
     WallTooFast {
         /// When [s].
         time: f64,
@@ -136,7 +131,7 @@ pub enum Halt {
     },
     /// A wall on a spring is so light that its contacts make the step unstable.
     #[error(
-        "t = {time:.6e} s: wall '{wall}' on its spring has a mass of {mass:.4e} kg; with {contacts} contacts the time step needs {least:.4e} kg"
+        "wall '{wall}' on its spring has a mass of {mass:.4e} kg; with {contacts} contacts the time step needs {least:.4e} kg"
     )]
     WallTooLight {
         /// When [s].
@@ -152,7 +147,7 @@ pub enum Halt {
     },
     /// A wall that follows a force has passed all particles.
     #[error(
-        "t = {time:.6e} s: wall '{wall}', which follows a force, touches nothing, and all particles are behind it: it has moved by {shift:.4e} m"
+        "wall '{wall}', which follows a force, touches nothing, and all particles are behind it: it has moved by {shift:.4e} m"
     )]
     WallPastAll {
         /// When [s].
@@ -164,14 +159,14 @@ pub enum Halt {
     },
     /// Contacts or forces on walls are asked for, and the wrench of each contact is not kept
     /// ([`crate::Setup::record_wrenches`]).
-    #[error("t = {time:.6e} s: the wrench of each contact was not recorded")]
+    #[error("the wrench of each contact was not recorded")]
     NotKept {
         /// When [s].
         time: f64,
     },
     /// A particle has come back through an inlet, against the flow.
     #[error(
-        "t = {time:.6e} s: particle {id} at {} came in by inlet {inlet} and has gone back through all of its \
+        "particle {id} at {} came in by inlet {inlet} and has gone back through all of its \
          zone, {behind:.3e} m behind the generation plane, where nothing of the plant is simulated",
         shown(position)
     )]
@@ -189,7 +184,7 @@ pub enum Halt {
     },
     /// A particle that is to come in is too fast for the time step.
     #[error(
-        "t = {time:.6e} s: particle {id} comes in by {by} at {speed:.4e} m/s, {:.1} % of its radius in one step of {dt:.3e} s \
+        "particle {id} comes in by {by} at {speed:.4e} m/s, {:.1} % of its radius in one step of {dt:.3e} s \
          (limit {:.1} %)",
         100.0 * share, 100.0 * limit
     )]
@@ -211,7 +206,7 @@ pub enum Halt {
     },
     /// Bonds that are made during the run are too stiff for its step.
     #[error(
-        "t = {time:.6e} s: bonds are made that need a time step below {critical:.4e} s (this run has {dt:.4e} s): those of particle {} ({}, \
+        "bonds are made that need a time step below {critical:.4e} s (this run has {dt:.4e} s): those of particle {} ({}, \
          radius {:.4e} m)",
         particle.id, particle.material, particle.radius
     )]
@@ -226,7 +221,7 @@ pub enum Halt {
         particle: BondedParticle,
     },
     /// Bonds that are made during the run are refused.
-    #[error("t = {time:.6e} s: {error}")]
+    #[error("{error}")]
     Bonds {
         /// When [s].
         time: f64,
@@ -235,7 +230,7 @@ pub enum Halt {
     },
     /// Energy came from nowhere.
     #[error(
-        "t = {time:.6e} s: the time step has made {made:.3e} J, {} of the {of:.3e} J that were exchanged or in motion and springs at most (limit {:.2} %)",
+        "the time step has made {made:.3e} J, {} of the {of:.3e} J that were exchanged or in motion and springs at most (limit {:.2} %)",
         share_of(*made, *of), 100.0 * limit
     )]
     Energy {
@@ -248,6 +243,30 @@ pub enum Halt {
         /// Allowed share [–].
         limit: f64,
     },
+}
+
+impl Halt {
+    /// When it happened [s].
+    pub fn time(&self) -> f64 {
+        match self {
+            Halt::Overlap { time, .. }
+            | Halt::InletOverlap { time, .. }
+            | Halt::Motion { time, .. }
+            | Halt::NotANumber { time, .. }
+            | Halt::Device { time, .. }
+            | Halt::CellTooSmall { time, .. }
+            | Halt::WallNotANumber { time, .. }
+            | Halt::WallTooFast { time, .. }
+            | Halt::WallTooLight { time, .. }
+            | Halt::WallPastAll { time, .. }
+            | Halt::NotKept { time, .. }
+            | Halt::CameBack { time, .. }
+            | Halt::TooFast { time, .. }
+            | Halt::BondsTooStiff { time, .. }
+            | Halt::Bonds { time, .. }
+            | Halt::Energy { time, .. } => *time,
+        }
+    }
 }
 
 /// What a contact must be made of to bear an approach.

@@ -41,6 +41,8 @@ pub enum Subject {
     Inlet,
     /// A particle that enters, by id.
     Entry(u32),
+    /// A component of a particle that enters, along the flow, by id.
+    EntryAlongFlow(u32),
     /// A clump that enters, by id.
     EntryClump(u32),
     /// The recorded path of a particle, by id.
@@ -90,6 +92,9 @@ impl Display for Quantity {
             Subject::PeriodicEnd(end) => write!(f, "{end} end of the periodic box: ")?,
             Subject::Inlet => write!(f, "inlet: ")?,
             Subject::Entry(id) => write!(f, "entering particle {id}: ")?,
+            Subject::EntryAlongFlow(id) => {
+                return write!(f, "entering particle {id}: {} along the flow", self.name);
+            }
             Subject::EntryClump(id) => write!(f, "entering clump {id}: ")?,
             Subject::Path(id) => write!(f, "path of particle {id}: ")?,
         }

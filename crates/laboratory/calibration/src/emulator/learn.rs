@@ -1,9 +1,10 @@
-//! Steps in which an emulator learns: outputs along their principal directions, and the process of each.
+//! How an emulator learns: outputs along their principal directions, the process of each, and how specimens scatter.
 
 use super::crossed::crossed;
-use super::refined::Refined;
+use super::gp::{Gp, Logs};
+use super::likelihood::Scatter;
+use super::prediction::{Emulator, Refined};
 use super::trend::Trend;
-use super::{Gp, Lessons};
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -15,6 +16,101 @@ const LEAST: f64 = 0.05;
 const FEW: usize = 10;
 /// Least factor on the variances.
 const LEAST_FACTOR: f64 = 1e-3;
+
+/// Deviation of a process over the trials, in deviations of data and specimens, below which it only scatters.
+const FLAT: f64 = 0.1;
+/// Trials near the data, at least.
+const NEAR: usize = 60;
+/// Share by which the correlations of specimens are lowered: those of few trials are never exact.
+const SHRINK: f64 = 0.05;
+/// Most trials that an emulator learns from.
+pub(crate) const MOST_TRIALS: usize = 400;
+
+/// What an emulator learns from.
+pub(crate) struct Lessons<'a> {
+    /// Coordinates of the trials, a row each.
+    pub inputs: DMatrix<f64>,
+    /// Curves, a row each.
+    pub outputs: DMatrix<f64>,
+    /// Data.
+    pub data: DVector<f64>,
+    /// Covariance of the data.
+    pub covariance: DMatrix<f64>,
+    /// Runs that each curve is the mean of, and specimens that the data are the mean of.
+    pub seeds: f64,
+    pub specimens: f64,
+    /// Whether runs differ by their seeds.
+    pub random: bool,
+    /// Lengths of an earlier fit.
+    pub before: &'a [Logs],
+    /// What it refines: an emulator of the same parameters and data.
+    pub refined: Option<&'a Emulator>,
+}
+
+impl Lessons<'_> {
+    /// That of a component. Several specimens of the data tell it: their mean has a variance of 1, and runs are expected to scatter as they do.
+    fn scatter(&self) -> Scatter {
+        match self.random {
+            false => Scatter::None,
+            true if self.specimens > 1.0 => Scatter::About(self.specimens / self.seeds),
+            true => Scatter::Unknown,
+        }
+    }
+}
+
+impl Emulator {
+    /// Learns; `None` if the numbers do not allow it.
+    pub fn learn(lessons: &Lessons) -> Option<Emulator> {
+        let Outputs { factor, mean, basis, scores, target, beside } = Outputs::of(lessons)?;
+        let refined = lessons.refined.map(|other| Refined::new(other, &basis, &mean));
+        let features = Features::of(lessons, refined.as_ref(), scores.nrows());
+        let mut components = features.processes(lessons, &scores)?;
+        let left_out = features.left_out(lessons, &scores, &components)?;
+        let near = nearest(&scores, &target, lessons.inputs.ncols());
+        let off = rescale(&mut components, &left_out, &near);
+        let noise: Vec<f64> =
+            components.iter().map(|gp| gp.noise * lessons.seeds / lessons.specimens).collect();
+        let alike = off.tr_mul(&off) / near.len() as f64;
+        let wider = hartlap(near.len(), components.len());
+        let specimens = DMatrix::from_fn(noise.len(), noise.len(), |k, l| {
+            let share = if k == l { 1.0 } else { (1.0 - SHRINK) * alike[(k, l)] };
+            wider * share * (noise[k] * noise[l]).sqrt()
+        });
+        let changes = |k: &usize| components[*k].deviation() > FLAT * (1.0 + noise[*k]).sqrt();
+        let active: Vec<usize> = (0..components.len()).filter(changes).collect();
+        let (target, points) = (target.iter().copied().collect(), lessons.data.len());
+        Some(Emulator {
+            components,
+            target,
+            noise,
+            active,
+            specimens,
+            beside,
+            points,
+            factor,
+            mean,
+            basis,
+            refined,
+        })
+    }
+}
+
+/// The inverse of a covariance of few samples is too large on average: the covariance is widened by this factor. Hartlap, Simon & Schneider
+/// (2007), doi:10.1051/0004-6361:20066170.
+fn hartlap(samples: usize, components: usize) -> f64 {
+    let (n, p) = (samples as f64, components as f64);
+    (n - 1.0) / (n - p - 2.0).max(0.25 * n)
+}
+
+/// The trials whose curves are nearest to the data. Specimens scatter more where curves are large: the variances of emulator and specimens are
+/// those that predict these trials, each left out, rightly.
+fn nearest(scores: &DMatrix<f64>, target: &DVector<f64>, d: usize) -> Vec<usize> {
+    let far = |i: &usize| (scores.column(*i) - target).norm_squared();
+    let mut order: Vec<usize> = (0..scores.ncols()).collect();
+    order.sort_by(|a, b| far(a).total_cmp(&far(b)));
+    order.truncate(NEAR.max(5 * d).min((order.len() / 2).max(20)));
+    order
+}
 
 /// Outputs and data in units of their deviations, along the principal directions of the outputs.
 pub(super) struct Outputs {
@@ -140,4 +236,41 @@ fn principal(off: &DMatrix<f64>, n: f64) -> Option<DMatrix<f64>> {
         }
     }
     Some(basis)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geom::random::{generator, unit};
+
+    /// Two outputs that a specimen shifts together by a deviation of 0.3; the data are known to 0.01.
+    #[test]
+    fn a_specimen_counts_once_however_many_points_show_it() {
+        let mut random = generator(1, 2, 3);
+        let z: Vec<f64> = (0..120).map(|_| unit(&mut random)).collect();
+        let noise: Vec<f64> =
+            z.iter().map(|_| 0.3 * ((0..12).map(|_| unit(&mut random)).sum::<f64>() - 6.0)).collect();
+        let emulator = Emulator::learn(&Lessons {
+            inputs: DMatrix::from_column_slice(120, 1, &z),
+            // The second output bends, so that both components tell something.
+            outputs: DMatrix::from_fn(120, 2, |i, j| {
+                if j == 0 { 2.0 * z[i] + noise[i] } else { z[i] * z[i] + noise[i] }
+            }),
+            data: DVector::from_column_slice(&[1.0, 0.25]),
+            covariance: DMatrix::identity(2, 2) * 1e-4,
+            seeds: 1.0,
+            specimens: 1.0,
+            random: false,
+            before: &[],
+            refined: None,
+        })
+        .unwrap();
+        // 2 z − z² is free of the specimen; along it z = 0.5 is known to about 0.01, and the likelihood falls from there.
+        let fall = |dz: f64| emulator.log_likelihood(&[0.5], 1.0) - emulator.log_likelihood(&[0.5 + dz], 1.0);
+        assert!(emulator.active.len() == 2 && fall(0.2) > 2.0, "{} {}", emulator.active.len(), fall(0.2));
+        // Four specimens at once would have half the deviation.
+        let k = emulator.specimens.clone();
+        let common = (k[(0, 0)] + k[(1, 1)]) * 1e-4;
+        assert!((common - 2.0 * 0.09).abs() < 0.08, "variance of a specimen over both outputs: {common}");
+    }
 }

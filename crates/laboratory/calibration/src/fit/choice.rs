@@ -12,7 +12,7 @@ use super::halton::Halton;
 use super::region::Region;
 use super::sample::{Length, Samples};
 use crate::emulator::{Emulator, Gp, Prediction};
-use geom::random::{generator, unit};
+use geom::random::{generator, normal};
 use nalgebra::DVector;
 
 /// Stream of the draws.
@@ -149,12 +149,6 @@ fn improvement(fitted: &Fitted, processes: &[(&Gp, f64, f64)], c: &Candidate, se
         gain += (best - sum).max(0.0);
     }
     gain / DRAWN as f64
-}
-
-/// A normal number: Box & Muller (1958), doi:10.1214/aoms/1177706645.
-pub(crate) fn normal(random: &mut rand_pcg::Pcg64Mcg) -> f64 {
-    let (a, b) = (1.0 - unit(random), unit(random));
-    (-2.0 * libm::log(a)).sqrt() * libm::cos(std::f64::consts::TAU * b)
 }
 
 /// Lowers the variances by what a trial at the chosen candidate will tell.

@@ -21,7 +21,7 @@ use sample::{Length, Samples, draw};
 const MOST_KNOWN: usize = 60;
 
 /// Where a step begins.
-pub(crate) struct Place<'a> {
+pub(crate) struct StepStart<'a> {
     /// Coordinates of all parameters, for those that it holds.
     pub held: &'a [f64],
     /// Where most of its even points lie.
@@ -78,7 +78,7 @@ impl<'a> Fitted<'a> {
         recipe: &'a Recipe,
         step: &'a Step,
         tried: &[Tried],
-        place: &Place,
+        place: &StepStart,
         before: &[Vec<Logs>],
     ) -> Option<Fitted<'a>> {
         let own = |z: &[f64]| -> Vec<f64> { step.fit.iter().map(|&k| z[k]).collect() };

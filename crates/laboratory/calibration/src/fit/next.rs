@@ -5,12 +5,11 @@
 //! variance (Chaloner & Verdinelli 1995, doi:10.1214/ss/1177009939; by weights as in Huan & Marzouk 2013, doi:10.1016/j.jcp.2012.08.013).
 
 use super::belongs;
-use super::choice::normal;
 use crate::emulator::{Emulator, Lessons};
 use crate::recipe::Recipe;
 use crate::session::{StepEnd, Tried};
 use crate::trial::output::on_grid;
-use geom::random::{generator, unit};
+use geom::random::{generator, normal, unit};
 use nalgebra::{Cholesky, DMatrix, DVector};
 use serde::Serialize;
 

@@ -24,7 +24,7 @@ const STARTS: u64 = 600;
 
 /// A point and the logarithm of its density.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Sample {
+pub(crate) struct PosteriorPoint {
     pub z: Vec<f64>,
     pub log: f64,
 }
@@ -39,8 +39,8 @@ pub(crate) struct Length {
 
 /// Samples, and the largest ratio R̂ of the deviations of all chains and of each (Gelman & Rubin 1992, doi:10.1214/ss/1177011136).
 pub(crate) struct Samples {
-    pub list: Vec<Sample>,
-    pub best: Sample,
+    pub list: Vec<PosteriorPoint>,
+    pub best: PosteriorPoint,
     pub ratio: f64,
 }
 
@@ -57,9 +57,9 @@ impl Samples {
 pub(crate) type Density<'a> = dyn Fn(&[f64]) -> f64 + Sync + 'a;
 
 struct Chain {
-    at: Sample,
+    at: PosteriorPoint,
     random: Pcg64Mcg,
-    kept: Vec<Sample>,
+    kept: Vec<PosteriorPoint>,
 }
 
 /// Draws samples; `known` are points that may be good.
@@ -68,12 +68,16 @@ pub(crate) fn draw(density: &Density, d: usize, known: &[Vec<f64>], seed: u64, l
     let sequence = Halton::new(d, seed ^ CHAINS);
     let even = (0..STARTS).map(|k| sequence.point(k)).collect::<Vec<_>>();
     let all: Vec<&Vec<f64>> = even.iter().chain(known).collect();
-    let starts: Vec<Sample> = all.par_iter().map(|z| Sample { log: density(z), z: (*z).clone() }).collect();
+    let starts: Vec<PosteriorPoint> =
+        all.par_iter().map(|z| PosteriorPoint { log: density(z), z: (*z).clone() }).collect();
     let mut random = generator(seed, RESAMPLED, 0);
     let mut power = 0.0;
     let starts = resampled(&starts, &mut power, count, &mut random);
-    let chain =
-        |(k, at): (usize, Sample)| Chain { at, random: generator(seed, CHAINS, k as u64), kept: Vec::new() };
+    let chain = |(k, at): (usize, PosteriorPoint)| Chain {
+        at,
+        random: generator(seed, CHAINS, k as u64),
+        kept: Vec::new(),
+    };
     let mut chains: Vec<Chain> = starts.into_iter().enumerate().map(chain).collect();
     anneal(&mut chains, density, power, &mut random);
     for generation in 0..length.burn + length.keep {
@@ -83,12 +87,12 @@ pub(crate) fn draw(density: &Density, d: usize, known: &[Vec<f64>], seed: u64, l
         }
     }
     let ratio = ratio(&chains, d);
-    let list: Vec<Sample> = chains.into_iter().flat_map(|c| c.kept).collect();
+    let list: Vec<PosteriorPoint> = chains.into_iter().flat_map(|c| c.kept).collect();
     let best = list
         .iter()
         .max_by(|a, b| a.log.total_cmp(&b.log))
         .cloned()
-        .unwrap_or(Sample { z: vec![0.5; d], log: 0.0 });
+        .unwrap_or(PosteriorPoint { z: vec![0.5; d], log: 0.0 });
     Samples { list, best, ratio }
 }
 
@@ -102,14 +106,19 @@ fn anneal(chains: &mut [Chain], density: &Density, mut power: f64, random: &mut 
         if power >= 1.0 {
             break;
         }
-        let at: Vec<Sample> = chains.iter().map(|c| c.at.clone()).collect();
+        let at: Vec<PosteriorPoint> = chains.iter().map(|c| c.at.clone()).collect();
         let new = resampled(&at, &mut power, chains.len(), random);
         chains.iter_mut().zip(new).for_each(|(c, at)| c.at = at);
     }
 }
 
 /// Raises the power until half as many samples as are wanted count, and draws samples by their weights.
-fn resampled(from: &[Sample], power: &mut f64, count: usize, random: &mut Pcg64Mcg) -> Vec<Sample> {
+fn resampled(
+    from: &[PosteriorPoint],
+    power: &mut f64,
+    count: usize,
+    random: &mut Pcg64Mcg,
+) -> Vec<PosteriorPoint> {
     let top = from.iter().map(|s| s.log).fold(f64::NEG_INFINITY, f64::max);
     let weights = |more: f64| -> Vec<f64> { from.iter().map(|s| libm::exp(more * (s.log - top))).collect() };
     let effective = |w: &[f64]| w.iter().sum::<f64>().powi(2) / w.iter().map(|w| w * w).sum::<f64>();
@@ -162,7 +171,7 @@ fn advance(moving: &mut [Chain], others: &[Chain], density: &Density, (generatio
             .collect();
         let log = density(&z);
         if libm::log(unit(&mut chain.random).max(1e-300)) < power * (log - chain.at.log) {
-            chain.at = Sample { z, log };
+            chain.at = PosteriorPoint { z, log };
         }
     });
 }

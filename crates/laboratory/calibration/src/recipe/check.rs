@@ -3,9 +3,9 @@
 use super::keys::{Number, ParameterKeys, PriorKeys, Scale, SettingsKeys};
 use super::parameter::{Parameter, Prior};
 use super::text::Text;
-use super::{Settings, Test, blanks};
+use super::{CalibrationSettings, Test, blanks};
 use crate::error::{CalibrateError, Result};
-use crate::prior;
+use crate::measured::prior;
 use scene::materials::Range;
 use toml::Spanned;
 
@@ -54,8 +54,8 @@ pub(super) fn number(
     ))
 }
 
-pub(super) fn settings(text: &Text, keys: &SettingsKeys) -> Result<Settings> {
-    Ok(Settings {
+pub(super) fn settings(text: &Text, keys: &SettingsKeys) -> Result<CalibrationSettings> {
+    Ok(CalibrationSettings {
         seeds: whole(text, "seeds", &keys.seeds, 1, [1, 1000])?,
         seed: whole(text, "seed", &keys.seed, 0, [0, 1 << 40])?,
         interval: number(text, "interval", &keys.interval, "", [0.5, 0.999])?.unwrap_or(0.9),

@@ -16,9 +16,9 @@ pub use keys::Pick;
 pub use parameter::{Parameter, Prior};
 pub use steps::{Part, Step};
 
-use crate::data::Target;
 use crate::error::{CalibrateError, Result};
-use crate::target::Units;
+use crate::measured::data::Target;
+use crate::measured::target::Units;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use text::Text;
@@ -37,14 +37,14 @@ pub struct Recipe {
     /// What is fitted to what, in order.
     pub steps: Vec<Step>,
     /// Numbers for all.
-    pub settings: Settings,
+    pub settings: CalibrationSettings,
     /// What is odd, but no error.
     pub warnings: Vec<String>,
 }
 
 /// Numbers for all trials.
 #[derive(Debug, Clone)]
-pub struct Settings {
+pub struct CalibrationSettings {
     /// Runs of each trial with different seeds.
     pub seeds: u64,
     /// Seed of the proposals, and the first of the runs.

@@ -4,9 +4,9 @@ use super::blanks::{self, shown};
 use super::check::{OWN_BLANKS, number, whole};
 use super::keys::{Number, TestKeys};
 use super::text::Text;
-use super::{GivenData, Settings, Test};
+use super::{CalibrationSettings, GivenData, Test};
 use crate::error::{CalibrateError, Result, hint};
-use crate::target::{Asked, Units, curve, value};
+use crate::measured::target::{Asked, Units, curve, value};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -16,7 +16,7 @@ pub(super) fn tests(
     text: &Text,
     keys: &[Spanned<TestKeys>],
     blanks: &[&str],
-    settings: &Settings,
+    settings: &CalibrationSettings,
     files: (&Path, &GivenData),
 ) -> Result<(Vec<Test>, Vec<String>)> {
     let given = given(files.1, keys)?;

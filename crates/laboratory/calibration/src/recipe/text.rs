@@ -1,7 +1,7 @@
 //! The text of a recipe: places, and errors in plain words.
 
 use super::keys::{Number, RecipeKeys};
-use crate::error::{CalibrateError, Place, Result, hint};
+use crate::error::{CalibrateError, Location, Result, hint};
 use std::ops::Range;
 
 /// A recipe's text and its name.
@@ -11,13 +11,13 @@ pub(super) struct Text<'a> {
 }
 
 impl Text<'_> {
-    pub fn place(&self, start: Option<usize>) -> Place {
+    pub fn place(&self, start: Option<usize>) -> Location {
         let at = start.map(|start| {
             let before = self.toml.get(..start).unwrap_or_default();
             let line = before.matches('\n').count() + 1;
             (line, before.chars().rev().take_while(|c| *c != '\n').count() + 1)
         });
-        Place { file: self.name.to_owned(), at }
+        Location { file: self.name.to_owned(), at }
     }
 
     /// An error at a span.

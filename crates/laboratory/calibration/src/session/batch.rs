@@ -6,10 +6,10 @@ use super::{Session, Status, Tried, table};
 use crate::error::{CalibrateError, Result};
 use crate::fit::{misfit, part_misfit};
 use crate::recipe::Step;
-use crate::trial::output::{Outcome, on_grid, outcome};
+use crate::trial::output::{TrialOutput, on_grid, outcome};
 use crate::trial::pool::Pool;
 use crate::trial::run::{Ended, is_done, is_outdated, tools};
-use crate::trial::{self, Run, Trial};
+use crate::trial::{self, Trial, TrialRun};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -117,7 +117,7 @@ impl Session<'_> {
     }
 
     /// Writes the jobs of the trials that are still hopeful: for each trial its runs.
-    fn prepare(&self, new: &[Tried], tests: &[usize], work: &mut Work) -> Result<Vec<Vec<Run>>> {
+    fn prepare(&self, new: &[Tried], tests: &[usize], work: &mut Work) -> Result<Vec<Vec<TrialRun>>> {
         let mut all = Vec::new();
         for t in new {
             let mut runs = Vec::new();
@@ -136,7 +136,7 @@ impl Session<'_> {
     }
 
     /// Says once that runs are made again, and once what of runs that are used again cannot be known.
-    fn say_what_is_used_again(&self, runs: &[Run], work: &mut Work) {
+    fn say_what_is_used_again(&self, runs: &[TrialRun], work: &mut Work) {
         let dir = self.dir.display();
         if !work.outdated && runs.iter().any(|r| is_outdated(&r.file, &r.job)) {
             work.outdated = true;
@@ -147,7 +147,8 @@ impl Session<'_> {
         let tools = tools();
         let known = |program: &str| tools.join(program).is_file();
         let used = runs.iter().filter(|r| is_done(&r.file, &r.job, work.since));
-        let more = |run: &Run| Some((run.job.test.clone(), stream::reads_more(&run.job.command, known)?));
+        let more =
+            |run: &TrialRun| Some((run.job.test.clone(), stream::reads_more(&run.job.command, known)?));
         if let Some((test, word)) = used.filter(|_| !work.unknown).find_map(more) {
             work.unknown = true;
             self.watch.warn(&format!(
@@ -157,12 +158,13 @@ impl Session<'_> {
         }
     }
 
-    fn work_off(&self, runs: &[Run], work: &Work, step: &str) -> Result<()> {
-        let open: Vec<Run> = runs.iter().filter(|r| !is_done(&r.file, &r.job, work.since)).cloned().collect();
+    fn work_off(&self, runs: &[TrialRun], work: &Work, step: &str) -> Result<()> {
+        let open: Vec<TrialRun> =
+            runs.iter().filter(|r| !is_done(&r.file, &r.job, work.since)).cloned().collect();
         let (done, total) = work.found(runs.len() - open.len());
         self.watch.progress(done, total, step);
         let give_up = AtomicBool::new(false);
-        let ended = |_: &Run, ended: &Ended| {
+        let ended = |_: &TrialRun, ended: &Ended| {
             let now = work.ended(ended, self.jobs);
             self.watch.progress(now.done, total, step);
             if now.all_failed && now.done >= HOPELESS {
@@ -176,7 +178,7 @@ impl Session<'_> {
             .run(&open)?;
         if give_up.load(Ordering::SeqCst) {
             let failed = runs.iter().find_map(|r| match outcome(r, &self.recipe.tests[r.test]) {
-                Outcome::Failed(why) if !why.starts_with("it has no result") => Some((r, why)),
+                TrialOutput::Failed(why) => Some((r, why)),
                 _ => None,
             });
             if let Some((run, why)) = failed {
@@ -191,7 +193,7 @@ impl Session<'_> {
     }
 
     /// Reads what the runs of a trial printed.
-    pub(super) fn collect(&self, tried: &mut Tried, runs: &[Run]) {
+    pub(super) fn collect(&self, tried: &mut Tried, runs: &[TrialRun]) {
         for ended in once(runs).iter().filter_map(|run| trial::run::ended(&run.file, &run.job)) {
             tried.seconds += ended.seconds;
             if ended.exit == 0
@@ -202,9 +204,13 @@ impl Session<'_> {
         }
         for run in runs {
             match outcome(run, &self.recipe.tests[run.test]) {
-                Outcome::Done(curve) => tried.curves[run.test].push(curve),
-                Outcome::Stopped(why) => note(tried, Status::Stopped, why),
-                Outcome::Failed(why) => note(tried, Status::Failed, why),
+                TrialOutput::Done(curve) => tried.curves[run.test].push(curve),
+                TrialOutput::Stopped(why) => note(tried, Status::Stopped, why),
+                TrialOutput::Failed(why) => note(tried, Status::Failed, why),
+                TrialOutput::Missing => {
+                    let why = "it has no result, or files that it has read have changed since";
+                    note(tried, Status::Failed, why.to_owned());
+                }
             }
         }
         for test in 0..self.recipe.tests.len() {
@@ -250,7 +256,7 @@ impl Session<'_> {
 }
 
 /// Runs that tests share, each once.
-fn once<'a>(runs: impl IntoIterator<Item = &'a Run>) -> Vec<Run> {
+fn once<'a>(runs: impl IntoIterator<Item = &'a TrialRun>) -> Vec<TrialRun> {
     let mut files = std::collections::BTreeSet::new();
     runs.into_iter().filter(|r| files.insert(&r.file)).cloned().collect()
 }

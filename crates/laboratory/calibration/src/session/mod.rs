@@ -14,7 +14,7 @@ pub use record::{Status, Tried, table};
 
 use crate::error::{CalibrateError, Result};
 use crate::fit::sample::Length;
-use crate::fit::{Fitted, Place, choice, region::Region, sample::Samples};
+use crate::fit::{Fitted, StepStart, choice, region::Region, sample::Samples};
 use crate::recipe::{Recipe, Step};
 use crate::trial::run;
 use proposal::Proposal;
@@ -104,7 +104,7 @@ impl<'a> Session<'a> {
             let d = step.fit.len();
             let refined = step.refines.map(|r| &ends[r]);
             let region = refined.map_or_else(|| Region::whole(d), |end| Region::left_by(&end.samples, d));
-            let place = Place { held: &held, region: &region, refined: refined.map(|end| &end.fitted) };
+            let place = StepStart { held: &held, region: &region, refined: refined.map(|end| &end.fitted) };
             work.begin(k);
             let Some(mut end) = self.step((k, step), &mut tried, &place, &mut work)? else {
                 return Ok(Standing::Open(work.open));
@@ -143,7 +143,7 @@ impl<'a> Session<'a> {
         &self,
         of: (usize, &'a Step),
         tried: &mut Vec<Tried>,
-        place: &Place,
+        place: &StepStart,
         work: &mut work::Work,
     ) -> Result<Option<StepEnd<'a>>> {
         let (k, step) = of;
@@ -169,7 +169,7 @@ impl<'a> Session<'a> {
                     }));
                 }
                 let make = || self.propose(&fitted, &samples, (k, batch, trials, count));
-                let proposal = Proposal::kept(self, (k, batch), tried, place, make)?;
+                let proposal = Proposal::kept((&self.dir, self.recipe), (k, batch), tried, place, make)?;
                 certain = if proposal.certain { certain + 1 } else { 0 };
                 if !self.try_all(&proposal, (k, batch), (tried, place.held), work)? {
                     return Ok(None);
@@ -180,7 +180,7 @@ impl<'a> Session<'a> {
                     points: choice::even(place.region, self.seed(k, 0), 0, count),
                     certain: false,
                 };
-                let proposal = Proposal::kept(self, (k, 0), tried, place, make)?;
+                let proposal = Proposal::kept((&self.dir, self.recipe), (k, 0), tried, place, make)?;
                 if !self.try_all(&proposal, (k, 0), (tried, place.held), work)? {
                     return Ok(None);
                 }
@@ -202,7 +202,7 @@ impl<'a> Session<'a> {
         &self,
         step: &'a Step,
         tried: &[Tried],
-        place: &Place,
+        place: &StepStart,
         logs: &[Vec<crate::emulator::Logs>],
     ) -> Result<Fitted<'a>> {
         Fitted::learn(self.recipe, step, tried, place, logs).ok_or_else(|| {

@@ -1,10 +1,12 @@
 //! Proposals of trials, kept in files.
 
-use super::{Session, Tried};
+use super::Tried;
 use crate::error::{CalibrateError, Result};
-use crate::fit::Place;
+use crate::fit::StepStart;
+use crate::recipe::Recipe;
 use crate::trial::replace;
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// Points that are to be tried.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,14 +37,14 @@ pub(super) fn digits(z: f64) -> f64 {
 impl Proposal {
     /// The proposal in the folder, or a new one, which is kept. The one in the folder counts if it follows from the same recipe and results.
     pub fn kept(
-        session: &Session,
+        (dir, recipe): (&Path, &Recipe),
         of: (usize, usize),
         tried: &[Tried],
-        place: &Place,
+        place: &StepStart,
         make: impl FnOnce() -> Proposal,
     ) -> Result<Proposal> {
-        let path = session.dir.join("batches").join(name(of.0, of.1));
-        let stamp = stamp(session, of, tried, place);
+        let path = dir.join("batches").join(name(of.0, of.1));
+        let stamp = stamp(recipe, of, tried, place);
         let read = || {
             let text = std::fs::read_to_string(&path).ok()?;
             serde_json::from_str::<Kept>(&text).ok().filter(|k| k.stamp == stamp)
@@ -60,8 +62,8 @@ impl Proposal {
 }
 
 /// What a proposal follows from.
-fn stamp(session: &Session, of: (usize, usize), tried: &[Tried], place: &Place) -> String {
-    let (recipe, step) = (session.recipe, &session.recipe.steps[of.0]);
+fn stamp(recipe: &Recipe, of: (usize, usize), tried: &[Tried], place: &StepStart) -> String {
+    let step = &recipe.steps[of.0];
     let mut text = format!(
         "{} {of:?} {:?} {:?} {}\n",
         env!("CARGO_PKG_VERSION"),

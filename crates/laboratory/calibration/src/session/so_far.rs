@@ -5,11 +5,11 @@ use super::work::check_sizes;
 use super::{Session, Standing, Status, StepEnd, Tried};
 use crate::error::{CalibrateError, Result};
 use crate::fit::region::Region;
-use crate::fit::{Fitted, Place, choice, misfit};
-use crate::judge::quantile;
+use crate::fit::{Fitted, StepStart, choice, misfit};
 use crate::recipe::{Step, shown};
+use crate::report::judge::quantile;
 use crate::trial::run::ended;
-use crate::trial::{self, Run, Trial};
+use crate::trial::{self, Trial, TrialRun};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -46,7 +46,7 @@ impl<'a> Session<'a> {
             let held = own.first().map_or(Vec::new(), |t| t.trial.z.clone());
             let refined = step.refines.map(|r| &ends[r]);
             let (d, region) = (step.fit.len(), Region::whole(step.fit.len()));
-            let place = Place { held: &held, region: &region, refined: refined.map(|end| &end.fitted) };
+            let place = StepStart { held: &held, region: &region, refined: refined.map(|end| &end.fitted) };
             let until = &tried[..tried.partition_point(|t| t.trial.step <= k)];
             let fitted = if own.is_empty() { None } else { Fitted::learn(recipe, step, until, &place, &[]) };
             let Some(mut fitted) = fitted else {
@@ -155,7 +155,7 @@ impl<'a> Session<'a> {
     /// What became of a trial. A test counts when all of its seeds have run.
     fn result(&self, trial: Trial, folder: &Path) -> Stored {
         let step = &self.recipe.steps[trial.step];
-        let mut done: Vec<Run> = Vec::new();
+        let mut done: Vec<TrialRun> = Vec::new();
         let mut missing = false;
         for test in self.commands(trial.step).concat() {
             let runs = trial::runs(self.recipe, &self.dir, &trial, test);

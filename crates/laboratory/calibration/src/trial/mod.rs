@@ -16,7 +16,7 @@ pub mod run;
 
 use crate::error::{CalibrateError, Result, file};
 use crate::recipe::{Recipe, filled, shown};
-use run::Job;
+use run::TrialJob;
 use std::path::{Path, PathBuf};
 
 /// A point of the parameters that is tried.
@@ -34,13 +34,13 @@ pub struct Trial {
 
 /// A run and where it lies.
 #[derive(Debug, Clone)]
-pub struct Run {
+pub struct TrialRun {
     /// Index of the test.
     pub test: usize,
     /// The file of its job.
     pub file: PathBuf,
     /// What it does.
-    pub job: Job,
+    pub job: TrialJob,
 }
 
 /// The folder of a trial.
@@ -49,7 +49,7 @@ pub fn folder(dir: &Path, number: usize) -> PathBuf {
 }
 
 /// The runs of a trial for one test: one a seed. Tests with the same command share them.
-pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize) -> Vec<Run> {
+pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize) -> Vec<TrialRun> {
     let (of, seeds) = (&recipe.tests[recipe.first_with_command_of(test)], recipe.settings.seeds);
     let count = if of.is_random() { seeds } else { 1 };
     let values: Vec<String> =
@@ -67,8 +67,8 @@ pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize) -> Vec<Run>
         let name = if of.is_random() { format!("{}-{seed}", slug(&of.name)) } else { slug(&of.name) };
         let stamp = run::stamp(&movable, &command);
         let (timeout, here) = (recipe.settings.timeout, recipe.here.clone());
-        let job = Job { test: of.name.clone(), command, stamp, timeout, here };
-        Run { test, file: folder(dir, trial.number).join(format!("{name}.job")), job }
+        let job = TrialJob { test: of.name.clone(), command, stamp, timeout, here };
+        TrialRun { test, file: folder(dir, trial.number).join(format!("{name}.job")), job }
     };
     (0..count).map(make).collect()
 }
@@ -84,7 +84,7 @@ fn slug(name: &str) -> String {
 ///
 /// # Errors
 /// A folder that cannot be written to.
-pub fn write(recipe: &Recipe, dir: &Path, trial: &Trial, runs: &[Run]) -> Result<()> {
+pub fn write(recipe: &Recipe, dir: &Path, trial: &Trial, runs: &[TrialRun]) -> Result<()> {
     let folder = folder(dir, trial.number);
     std::fs::create_dir_all(&folder).map_err(file(&folder, "cannot create the folder"))?;
     jobs::clear_parts(&folder);

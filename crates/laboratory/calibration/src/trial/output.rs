@@ -1,28 +1,30 @@
 //! What a run printed, as a curve on the points of the data, or as a number.
 
-use super::Run;
+use super::TrialRun;
 use super::run::{self, STOPPED};
-use crate::data::{at, growing};
 use crate::error::{CalibrateError, Result};
+use crate::measured::data::{at, growing};
+use crate::measured::sheet::{Sheet, of_report};
 use crate::recipe::{Pick, Test, shown};
-use crate::sheet::{Sheet, of_report};
 use std::fs;
 
 /// What came out of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Outcome {
+pub enum TrialOutput {
     /// A curve (x, y), or one point.
     Done(Vec<(f64, f64)>),
     /// A guard stopped it: the parameters cannot be simulated so.
     Stopped(String),
     /// It failed, or printed something else.
     Failed(String),
+    /// It has not ended, or what it has read is something else now.
+    Missing,
 }
 
 /// The outcome of a run that has ended.
-pub fn outcome(run: &Run, test: &Test) -> Outcome {
+pub fn outcome(run: &TrialRun, test: &Test) -> TrialOutput {
     let Some(ended) = run::ended(&run.file, &run.job) else {
-        return Outcome::Failed("it has no result, or files that it has read have changed since".to_owned());
+        return TrialOutput::Missing;
     };
     let reason = || {
         let words = fs::read_to_string(run::folder(&run.file).join("stderr")).unwrap_or_default();
@@ -31,23 +33,23 @@ pub fn outcome(run: &Run, test: &Test) -> Outcome {
     };
     match ended.exit {
         _ if ended.timed_out => {
-            Outcome::Failed(format!("took longer than {} s", run.job.timeout.unwrap_or(0.0)))
+            TrialOutput::Failed(format!("took longer than {} s", run.job.timeout.unwrap_or(0.0)))
         }
         _ if ended.signal().is_some() => {
-            Outcome::Failed(ended.signal().map_or(String::new(), |stop| stop.stopped.clone()))
+            TrialOutput::Failed(ended.signal().map_or(String::new(), |stop| stop.stopped.clone()))
         }
         0 => match curve(run, test) {
-            Ok(curve) => Outcome::Done(curve),
-            Err(e) => Outcome::Failed(e.to_string()),
+            Ok(curve) => TrialOutput::Done(curve),
+            Err(e) => TrialOutput::Failed(e.to_string()),
         },
-        STOPPED => Outcome::Stopped(reason()),
-        code @ 128.. => Outcome::Failed(format!("ended by signal {}: {}", code - 128, reason())),
-        code => Outcome::Failed(format!("exit code {code}: {}", reason())),
+        STOPPED => TrialOutput::Stopped(reason()),
+        code @ 128.. => TrialOutput::Failed(format!("ended by signal {}: {}", code - 128, reason())),
+        code => TrialOutput::Failed(format!("exit code {code}: {}", reason())),
     }
 }
 
 /// The curve that a run printed.
-fn curve(run: &Run, test: &Test) -> Result<Vec<(f64, f64)>> {
+fn curve(run: &TrialRun, test: &Test) -> Result<Vec<(f64, f64)>> {
     let path = run::folder(&run.file).join(test.read.as_deref().unwrap_or("stdout"));
     let name = path.display().to_string();
     let fail = |message: String| CalibrateError::Test { test: test.name.clone(), message };

@@ -1,6 +1,6 @@
 //! Runs many jobs, several at a time, beside other processes that may work on the same folder.
 
-use super::Run;
+use super::TrialRun;
 use super::lock;
 use super::run::{self, Ended, execute, is_done};
 use crate::error::{CalibrateError, Result};
@@ -18,7 +18,7 @@ pub struct Pool<'a> {
     /// Failures after this time [s since 1970] count.
     pub since: u64,
     /// Called after each run of this process.
-    pub ended: &'a (dyn Fn(&Run, &Ended) + Sync),
+    pub ended: &'a (dyn Fn(&TrialRun, &Ended) + Sync),
     /// Set: no further run begins.
     pub give_up: &'a AtomicBool,
 }
@@ -28,7 +28,7 @@ impl Pool<'_> {
     ///
     /// # Errors
     /// A signal, a folder that cannot be written to.
-    pub fn run(&self, runs: &[Run]) -> Result<()> {
+    pub fn run(&self, runs: &[TrialRun]) -> Result<()> {
         let (next, failed) = (AtomicUsize::new(0), AtomicBool::new(false));
         let trouble = Mutex::new(None);
         let worker = || {
@@ -58,7 +58,7 @@ impl Pool<'_> {
     }
 
     /// One run: done here, or waited for where another process does it.
-    fn one(&self, run: &Run, failed: &AtomicBool) -> Result<()> {
+    fn one(&self, run: &TrialRun, failed: &AtomicBool) -> Result<()> {
         while !(self.stop)()
             && !failed.load(SeqCst)
             && !self.give_up.load(SeqCst)
@@ -86,7 +86,7 @@ impl Pool<'_> {
 pub fn one(job_file: &std::path::Path, stop: fn() -> bool) -> Result<Option<Ended>> {
     let text =
         std::fs::read_to_string(job_file).map_err(crate::error::file(job_file, "cannot read the job"))?;
-    let job: run::Job = serde_json::from_str(&text).map_err(|e| CalibrateError::Folder {
+    let job: run::TrialJob = serde_json::from_str(&text).map_err(|e| CalibrateError::Folder {
         folder: job_file.to_owned(),
         message: format!("is not a job of --jobs-file: {e}"),
     })?;

@@ -17,7 +17,7 @@ pub const STOPPED: i32 = 3;
 
 /// What a run does.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Job {
+pub struct TrialJob {
     /// Name of the test.
     pub test: String,
     /// The shell line.
@@ -78,7 +78,7 @@ pub fn folder(job_file: &Path) -> PathBuf {
 }
 
 /// How a run ended, if it is the run of this job, and the files that it has read are what they were.
-pub fn ended(job_file: &Path, job: &Job) -> Option<Ended> {
+pub fn ended(job_file: &Path, job: &TrialJob) -> Option<Ended> {
     let text = fs::read_to_string(folder(job_file).join("result.json")).ok()?;
     let ended: Ended = serde_json::from_str(&text).ok()?;
     let record = folder(job_file).join(RECORD);
@@ -87,12 +87,12 @@ pub fn ended(job_file: &Path, job: &Job) -> Option<Ended> {
 }
 
 /// Whether a run has ended there that was made from other files, another command or another program.
-pub fn is_outdated(job_file: &Path, job: &Job) -> bool {
+pub fn is_outdated(job_file: &Path, job: &TrialJob) -> bool {
     folder(job_file).join("result.json").exists() && ended(job_file, job).is_none()
 }
 
 /// Whether nothing is left to do; `since`: failures after this time [s since 1970] count.
-pub fn is_done(job_file: &Path, job: &Job, since: u64) -> bool {
+pub fn is_done(job_file: &Path, job: &TrialJob, since: u64) -> bool {
     ended(job_file, job).is_some_and(|e| e.is_final() || e.started >= since || e.attempt >= TRIES)
 }
 
@@ -105,7 +105,12 @@ pub fn now() -> u64 {
 ///
 /// # Errors
 /// A folder that cannot be written to, bash that cannot be started.
-pub fn execute(job_file: &Path, job: &Job, lock: &mut Lock, stop: fn() -> bool) -> Result<Option<Ended>> {
+pub fn execute(
+    job_file: &Path,
+    job: &TrialJob,
+    lock: &mut Lock,
+    stop: fn() -> bool,
+) -> Result<Option<Ended>> {
     let attempt = 1 + ended(job_file, job).map_or(0, |e| e.attempt);
     let place = folder(job_file);
     let part = PathBuf::from(format!("{}.part-{}", place.display(), here()));
@@ -148,7 +153,7 @@ pub fn execute(job_file: &Path, job: &Job, lock: &mut Lock, stop: fn() -> bool) 
     Ok(Some(ended))
 }
 
-fn start(part: &Path, job: &Job) -> Result<Child> {
+fn start(part: &Path, job: &TrialJob) -> Result<Child> {
     let script = part.join("command.sh");
     let text = format!(
         "#!/usr/bin/env bash\nset -o pipefail\nPATH={}:\"$PATH\"\n{}\n",

@@ -1,7 +1,7 @@
 //! The box that most specimens are prepared in: four smooth sides, a floor, and a lid that presses.
 
 use super::*;
-use crate::walls::{PLATE, SIDE};
+use crate::composing::walls::{PLATE, SIDE};
 
 /// The four sides with their normals.
 const SIDES: [(&str, [i8; 3]); 4] =

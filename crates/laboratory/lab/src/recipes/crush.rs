@@ -8,8 +8,8 @@
 
 use super::plates::uneven;
 use super::*;
+use crate::composing::walls::PLATE;
 use crate::series::peak;
-use crate::walls::PLATE;
 use geom::random::{generator, random_orientation};
 
 pub struct Crush;
@@ -61,7 +61,7 @@ impl Recipe for Crush {
         unused(request.inertial.is_some(), "--inertial", "crush", why)?;
         unused(request.friction.is_some(), "--friction", "crush", "the stone is not prepared")?;
         unused(request.rest.is_some(), "--rest", "crush", "the stone is not prepared")?;
-        let wrong = |what, cure| LabError::sample(sample, what, cure);
+        let wrong = |what, cure| sample.refusal(what, cure);
         if !sample.has("bond") {
             return Err(wrong("has no [[bond]]", "a stone that breaks needs one"));
         }

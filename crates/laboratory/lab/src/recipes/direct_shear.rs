@@ -12,8 +12,8 @@
 
 use super::boxes::{height, press};
 use super::*;
+use crate::composing::walls::{PLATE, SIDE};
 use crate::series::{at, peak, reaches, slope};
-use crate::walls::{PLATE, SIDE};
 
 pub struct DirectShear;
 

@@ -4,7 +4,7 @@
 //! surface falls towards x (docs/how-to/measure.md, bed slope).
 
 use super::*;
-use crate::walls::PLATE;
+use crate::composing::walls::PLATE;
 use std::f64::consts::PI;
 
 pub struct Drum;

@@ -9,7 +9,7 @@
 //! heap is measured in eight sectors (docs/how-to/measure.md, heap angle) when the grains have come to rest.
 
 use super::*;
-use crate::walls::PLATE;
+use crate::composing::walls::PLATE;
 use std::f64::consts::PI;
 
 pub struct Heap;
@@ -55,7 +55,7 @@ impl Recipe for Heap {
         one_length(self.name(), request)?;
         if let Some(key) = ["cluster", "velocity"].into_iter().find(|key| sample.fill_has(key)) {
             let cure = "take it out: --speed is that of the stream";
-            return Err(LabError::sample(sample, format!("has fill.0.{key}"), cure));
+            return Err(sample.refusal(format!("has fill.0.{key}"), cure));
         }
         falls(self.name(), sample, request)
     }

@@ -15,10 +15,10 @@ mod triaxial;
 mod triaxial_periodic;
 mod uniaxial;
 
-use crate::chain::Chain;
-use crate::compose::number;
+use crate::composing::compose::number;
 use crate::error::{LabError, Result};
 use crate::request::{Request, Specimen};
+use crate::running::chain::Chain;
 use crate::sample::Sample;
 use crate::series::{Curve, Series, residual, smoothed};
 use geom::Vec3;
@@ -239,7 +239,7 @@ pub const ROWS: u64 = 200;
 fn falls(test: &str, sample: &Sample, request: &Request) -> Result<()> {
     let speed = "grains fall at their own speed (--speed is that of the wall or the stream)";
     unused(request.inertial.is_some(), "--inertial", test, speed)?;
-    let wrong = |what, cure: &str| Err(LabError::sample(sample, what, cure));
+    let wrong = |what, cure: &str| Err(sample.refusal(what, cure));
     if sample.is_packed() {
         return wrong("has [[particles]]", &format!("{test} pours its own grains: give a [[fill]]"));
     }

@@ -7,7 +7,7 @@
 
 use super::boxes::{height, press, sides};
 use super::*;
-use crate::walls::PLATE;
+use crate::composing::walls::PLATE;
 
 pub struct Oedometer;
 

@@ -4,7 +4,7 @@
 //! sectors (docs/how-to/measure.md, heap angle) when the grains have come to rest.
 
 use super::*;
-use crate::walls::{PLATE, SIDE};
+use crate::composing::walls::{PLATE, SIDE};
 use std::f64::consts::PI;
 
 pub struct Repose;

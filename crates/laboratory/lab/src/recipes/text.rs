@@ -1,6 +1,6 @@
 //! Parts of scenes as text.
 
-use crate::compose::number;
+use crate::composing::compose::number;
 use crate::request::Specimen;
 use crate::sample::Sample;
 use geom::Vec3;

@@ -9,8 +9,8 @@
 
 use super::boxes::settling;
 use super::*;
+use crate::composing::walls::SIDE;
 use crate::series::{at, peak, reaches, slope};
-use crate::walls::SIDE;
 
 pub struct Triaxial;
 

@@ -47,7 +47,7 @@ impl Recipe for TriaxialPeriodic {
     }
 
     fn check(&self, sample: &Sample, _: &Request) -> Result<()> {
-        let refuse = |what, cure| Err(LabError::sample(sample, what, cure));
+        let refuse = |what, cure| Err(sample.refusal(what, cure));
         if sample.grains.gravity > 0.0 {
             return refuse(
                 "has gravity, and nothing holds a specimen without walls",

@@ -11,8 +11,8 @@
 use super::boxes::{height, settling};
 use super::plates::{on_the_way, uneven};
 use super::*;
+use crate::composing::walls::{PLATE, SIDE};
 use crate::series::{at, peak};
-use crate::walls::{PLATE, SIDE};
 use std::f64::consts::PI;
 
 pub struct Uniaxial;
@@ -118,7 +118,7 @@ impl Recipe for Uniaxial {
             "has no [[bond]]".to_owned(),
             "grains without bonds have no strength in uniaxial compression: add a [[bond]], or use triaxial",
         );
-        Err(LabError::sample(sample, what, cure))
+        Err(sample.refusal(what, cure))
     }
 
     fn preparation(&self, of: &Context) -> Result<Option<Part>> {

@@ -2,11 +2,13 @@
 //!
 //! The engine's own messages say what is wrong; keys, flags and remedies are added here, and nowhere else.
 
+mod cause;
 mod remedy;
 mod setup;
 #[cfg(test)]
 mod tests;
 
+pub use cause::stop_cause;
 pub use remedy::Remedy;
 pub use setup::{explain_setup_error, explain_step_cause};
 
@@ -24,9 +26,6 @@ impl From<SetupError> for SceneSetupError {
     }
 }
 
-/// What the message of [`Halt::Device`] has.
-pub const DEVICE_FAILED: &str = "the device has failed";
-
 /// How much more the hardest impact near a contact must need than the contact itself to be named [–].
 const HARDER: f64 = 1.05;
 
@@ -42,8 +41,18 @@ pub(crate) fn of_stiffness(stiffer: Option<&Stiffer>) -> String {
     format!(" ({key} of {of} ≥ {value:.2e} {unit}{met}{harder})")
 }
 
-/// Why a run was stopped, and what to change in the scene or in the stages of a plant.
+/// Why a run was stopped, when, and what to change in the scene or in the stages of a plant.
 pub fn explain_halt(halt: &Halt) -> String {
+    at(halt.time(), &explain_fact(halt))
+}
+
+/// A fact, after its time [s].
+pub fn at(time: f64, fact: &str) -> String {
+    format!("t = {time:.6e} s: {fact}")
+}
+
+/// [`explain_halt`] without the time.
+pub fn explain_fact(halt: &Halt) -> String {
     let stiff = if let Halt::Overlap { stiffer, .. } = halt {
         of_stiffness(stiffer.as_deref())
     } else {

@@ -163,10 +163,8 @@ fn key(quantity: &Quantity) -> String {
         Subject::Precision(precision) => format!("precision \"{}\": {name}", precision.name()),
         Subject::PeriodicEnd(end) => format!("domain {end}: {name}"),
         Subject::Entry(id) if name == "inlet" => format!("inlet of particle {id}"),
-        Subject::Entry(id) => match name.strip_suffix(" along the flow") {
-            Some(name) => format!("inlet: {name} of particle {id} along the flow"),
-            None => format!("inlet: {name} of particle {id}"),
-        },
+        Subject::Entry(id) => format!("inlet: {name} of particle {id}"),
+        Subject::EntryAlongFlow(id) => format!("inlet: {name} of particle {id} along the flow"),
         Subject::EntryClump(id) => format!("inlet: clump {id}"),
         Subject::Path(id) => format!("inlet: path of particle {id}: {name}"),
         Subject::Setup

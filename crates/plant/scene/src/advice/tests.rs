@@ -52,6 +52,7 @@ fn numbers_outside_their_range_have_the_keys_of_scenes() {
         (Subject::PeriodicEnd("low"), "x", "domain low: x: "),
         (Subject::Entry(7), "radius", "inlet: radius of particle 7: "),
         (Subject::Entry(7), "inlet", "inlet of particle 7: "),
+        (Subject::EntryAlongFlow(7), "velocity", "inlet: velocity of particle 7 along the flow: "),
         (Subject::EntryClump(7), "shape", "inlet: clump 7: "),
         (Subject::Path(7), "time", "inlet: path of particle 7: time: "),
         (Subject::Wall(floor()), "speed", "wall 'floor': speed: "),

@@ -247,7 +247,7 @@ fn last_frame(name: String, bytes: &[u8]) -> Result<ParticleTable> {
                 spheres.get_or_insert((time_ns, table));
             }
             Event::Bytes { topic, data, .. } if topic == topic::LOG => {
-                stopped = LogMessage::stop(&data).or(stopped);
+                stopped = LogMessage::read_stop(&data).or(stopped);
             }
             _ => {}
         }

@@ -4,7 +4,7 @@ use super::{Passage, Replay};
 use dem::setup::{Zone, ZoneMotion};
 use geom::{Shown, Vec3};
 use record::metadata::{BONDS, CLUMPS, INLET, MATERIALS, OUTLETS, REPLAY, SCENE, SIZES, TIME};
-use record::{ClumpRecord, Map, Sizes};
+use record::{ClumpRecord, Map, RunTimes, Sizes};
 use scene::input::ZoneRecord;
 use scene::{Result, SceneError};
 use std::collections::BTreeMap;
@@ -88,8 +88,7 @@ impl Head {
 
 /// The time step of a run [s].
 fn step(name: &str, times: Option<Map>) -> Result<f64> {
-    let dt =
-        times.and_then(|times| times.get("dt")?.parse().ok()).filter(|dt: &f64| *dt > 0.0 && dt.is_finite());
+    let dt = times.and_then(|map| RunTimes::read(&map).dt).filter(|dt| *dt > 0.0 && dt.is_finite());
     dt.ok_or_else(|| {
         let cure = "leave --passage steps out, or run the upstream stage again";
         SceneError::file(name, "has no record of its time step, which --passage steps counts", cure)

@@ -14,7 +14,7 @@ use crate::outlet::path::{self, PathRow};
 use crate::outlet::{bond, bond::BondRow};
 use dem::setup::{CrossingBond, PairHistory, ZoneMotion};
 use geom::Shown;
-use record::{FRAME, LogMessage, Watermark, nanoseconds, topic};
+use record::{FRAME, LogMessage, StopCause, Watermark, nanoseconds, topic};
 use scene::{Result, SceneError};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -55,8 +55,8 @@ pub(super) struct Replayer<'a, W: Write> {
 
 /// The error of a run that was stopped before its end.
 pub(super) fn was_stopped(message: &LogMessage, run: &str) -> SceneError {
-    // The message of a guard contains the time.
-    let has_time = message.text.starts_with("t = ");
+    // The text of a guard or a device begins with the time.
+    let has_time = matches!(message.stop, Some(StopCause::Guard { .. } | StopCause::Device));
     let time = if has_time { String::new() } else { format!("t = {} s: ", Shown(message.time)) };
     let why = format!("the run was stopped at {time}{}", message.text);
     let cure = "continue it with dem-run --resume and give both runs, or replay the part before the stop with --until";
@@ -135,7 +135,7 @@ impl<'a, W: Write> Replayer<'a, W> {
                 Ok(self.over() || self.enough())
             }
             Event::Bytes { topic, data, .. } if topic == topic::LOG => {
-                self.stopped = self.stopped.take().or_else(|| LogMessage::stop(&data));
+                self.stopped = self.stopped.take().or_else(|| LogMessage::read_stop(&data));
                 Ok(false)
             }
             _ => Ok(false),

@@ -3,7 +3,7 @@
 use super::Replay;
 use super::head::Head;
 use geom::Shown;
-use record::{Map, metadata};
+use record::{Map, RunTimes, metadata};
 use scene::input::Source;
 use scene::{Result, SceneError};
 use std::collections::BTreeMap;
@@ -71,8 +71,7 @@ impl RunFile {
         };
         let text = records.get(metadata::SCENE).and_then(|r| r.get("toml"));
         let scene = text.map(|toml| ("scene of the run".to_owned(), stream::sha256(toml.as_bytes())));
-        let start = records.get(metadata::TIME).and_then(|r| r.get("start"));
-        let begins = start.and_then(|s| s.parse().ok()).unwrap_or(0.0);
+        let begins = records.get(metadata::TIME).and_then(|map| RunTimes::read(map).start).unwrap_or(0.0);
         let head = Head::new(&name, records, what)?;
         Ok((RunFile { name, reader, first, begins, scene }, head))
     }

@@ -1,38 +1,18 @@
 //! What is measured of a run: by dem-measure, a value of its summary or a column of its rows.
 
-use super::script::Job;
+use super::script::SweepRun;
 use super::work::is_ended;
 use crate::study::CurveError;
+use measure::definition::Figure;
+use measure::registry::{ALL, Entry};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
 
-/// A measure that has a name.
-struct Known {
-    name: &'static str,
-    /// Option of dem-measure.
-    option: &'static str,
-    /// Value of its summary.
-    value: &'static str,
+/// Each result that has a name, and the measure that has it.
+fn figures() -> impl Iterator<Item = (&'static Entry, &'static Figure)> {
+    ALL.iter().flat_map(|entry| entry.figures.iter().map(move |figure| (entry, figure)))
 }
-
-const fn known(name: &'static str, option: &'static str, value: &'static str) -> Known {
-    Known { name, option, value }
-}
-
-const KNOWN: [Known; 11] = [
-    known("heap-angle", "--repose", "angle"),
-    known("discharge-rate", "--flow", "mass_flow"),
-    known("wall-force", "--wall-force", "mean_force"),
-    known("peak-wall-force", "--wall-force", "largest_force"),
-    known("energy-error", "--energy", "largest_integration_relative"),
-    known("contact-time", "--impact", "contact_time"),
-    known("overlap", "--impact", "overlap"),
-    known("restitution", "--impact", "restitution"),
-    known("velocity-profile", "--profile", "speed"),
-    known("packing-fraction", "--porosity", "solid_fraction"),
-    known("bed-height", "--bed-height", "height"),
-];
 
 /// A measure.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,15 +55,14 @@ impl Measure {
         }
         let words = own(text);
         let name = words.first().map_or("", String::as_str);
-        if let Some(Known { name, option, value }) = KNOWN.iter().find(|known| known.name == name) {
-            let options = [vec![(*option).to_owned()], words[1..].to_vec()].concat();
-            let number = *option != "--profile";
-            let (name, value) = (name.replace('-', " "), (*value).to_owned());
+        if let Some((entry, figure)) = figures().find(|(_, figure)| figure.name == name) {
+            let options = [vec![format!("--{}", entry.name)], words[1..].to_vec()].concat();
+            let (name, value, number) = (name.replace('-', " "), figure.value.to_owned(), !figure.is_column);
             return Ok(Measure { name, value, each: false, number, options });
         }
-        let near = scene::nearest(name, KNOWN.iter().map(|k| k.name));
+        let near = scene::nearest(name, figures().map(|(_, figure)| figure.name));
         let hint = near.map_or(String::new(), |near| format!("; did you mean '{near}'?"));
-        let names: Vec<&str> = KNOWN.iter().map(|k| k.name).collect();
+        let names: Vec<&str> = figures().map(|(_, figure)| figure.name).collect();
         Err(CurveError::Usage(format!(
             "--measure {text}: is not known{hint}: give one of {}, or 'VALUE of --MEASURE …' of dem-measure",
             names.join(", ")
@@ -99,7 +78,7 @@ impl Measure {
     ///
     /// # Errors
     /// What dem-measure says, a missing value, a value that is not a number.
-    pub fn of(&self, job: &Job, tools: &Path) -> Result<Measured, CurveError> {
+    pub fn of(&self, job: &SweepRun, tools: &Path) -> Result<Measured, CurveError> {
         let key = stream::sha256(format!("{}\n{}", job.stamp, self.options.join("\n")).as_bytes());
         let kept = job.file(&format!("measure-{:.12}.json", key));
         let program = tools.join("dem-measure");

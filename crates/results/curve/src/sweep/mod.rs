@@ -16,8 +16,8 @@ use crate::study::{CurveError, PHASES, Study};
 use grid::AS_IT_IS;
 use knob::{is_random, seeds};
 use scene::{Scene, SceneError};
-use script::{Job, fill, unfilled};
-use stamp::{Hashes, stamp};
+use script::{SweepRun, fill, unfilled};
+use stamp::{Hashes, stamp, table};
 use std::path::{Path, PathBuf};
 use toml::Value;
 
@@ -27,7 +27,7 @@ pub struct Sweep {
     /// The settings.
     pub grid: Grid,
     /// The runs.
-    pub jobs: Vec<Job>,
+    pub jobs: Vec<SweepRun>,
     /// Folder of the programs.
     pub tools: PathBuf,
     /// Files that the scenes name.
@@ -66,8 +66,8 @@ impl Sweep {
         let once = sweep.jobs.clone();
         for round in 1..study.rounds {
             let folder =
-                |job: &Job| job.folder.with_file_name(format!("{},round={round}", base(&job.folder)));
-            sweep.jobs.extend(once.iter().map(|job| Job { folder: folder(job), ..job.clone() }));
+                |job: &SweepRun| job.folder.with_file_name(format!("{},round={round}", base(&job.folder)));
+            sweep.jobs.extend(once.iter().map(|job| SweepRun { folder: folder(job), ..job.clone() }));
         }
         Ok(sweep)
     }
@@ -90,7 +90,13 @@ impl Sweep {
     }
 
     /// The run of one setting with one seed, or at one phase of the step.
-    fn job(&mut self, study: &Study, at: usize, repeat: u64, hashes: &mut Hashes) -> Result<Job, CurveError> {
+    fn job(
+        &mut self,
+        study: &Study,
+        at: usize,
+        repeat: u64,
+        hashes: &mut Hashes,
+    ) -> Result<SweepRun, CurveError> {
         let setting = &self.grid.settings[at];
         let (seed, phase) = if self.phases > 1 { (0, repeat) } else { (repeat, 0) };
         let shorten = SHORTER * phase as f64 / self.phases as f64;
@@ -122,7 +128,7 @@ impl Sweep {
         let text =
             checked(&scene, &sets, &mut self.files).map_err(|e| e.at(format!("point {name}")))?.text.toml;
         let (folder, stamp_now) = (study.folder.join(folder(&name)), String::new());
-        let mut job = Job {
+        let mut job = SweepRun {
             setting: at,
             repeat,
             shorten,
@@ -165,10 +171,6 @@ fn base(folder: &Path) -> String {
 /// A scene with changes, as values; the files that it names are added to `files`.
 fn read(file: &str, sets: &[String], files: &mut Vec<PathBuf>) -> Result<Value, CurveError> {
     table(file, &checked(file, sets, files)?.text.toml)
-}
-
-fn table(file: &str, text: &str) -> Result<Value, CurveError> {
-    text.parse().map(Value::Table).map_err(|e: toml::de::Error| CurveError::Failed(format!("{file}: {e}")))
 }
 
 fn checked(file: &str, sets: &[String], files: &mut Vec<PathBuf>) -> Result<Scene, CurveError> {

@@ -12,7 +12,7 @@ use stream::reads::{RECORD, VARIABLE};
 
 /// One run.
 #[derive(Debug, Clone)]
-pub struct Job {
+pub struct SweepRun {
     /// Index of its setting.
     pub setting: usize,
     /// Which seed or phase of the step, from 0.
@@ -62,7 +62,7 @@ pub fn unfilled(text: &str) -> Option<&str> {
     if own { Some(&text[start..=end]) } else { unfilled(&text[end..]) }
 }
 
-impl Job {
+impl SweepRun {
     /// A file in its folder.
     pub fn file(&self, name: &str) -> PathBuf {
         self.folder.join(name)
@@ -191,7 +191,7 @@ mod tests {
         std::fs::write(&tool, format!("#!/bin/sh\necho run >> {}; sleep 0.5\n", log.display())).unwrap();
         let status = std::process::Command::new("chmod").arg("+x").arg(&tool).status();
         assert!(status.unwrap().success());
-        let job = Job {
+        let job = SweepRun {
             setting: 0,
             repeat: 0,
             shorten: 0.0,
@@ -218,7 +218,7 @@ mod tests {
         // What was made stays; another stamp is another point.
         let before = runs();
         assert!(start().wait().unwrap().success() && runs() == before);
-        let other = Job { stamp: "2c3d".to_owned(), ..job };
+        let other = SweepRun { stamp: "2c3d".to_owned(), ..job };
         std::fs::write(&script, other.script(&folder, &folder, Work::Steps, None)).unwrap();
         let mut first = start();
         std::thread::sleep(std::time::Duration::from_millis(250));

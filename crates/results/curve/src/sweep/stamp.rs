@@ -1,7 +1,6 @@
 //! What a point is made from, as a hash: a point that is made from the same is not run again.
 
-use super::script::Job;
-use super::table;
+use super::script::SweepRun;
 use crate::study::CurveError;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -43,7 +42,12 @@ impl Hashes {
 
 /// SHA-256 of everything that a point is made from: the scene with its changes, the files that it and the lines name, the
 /// programs, the line before.
-pub(super) fn stamp(job: &Job, text: &str, tools: &Path, hashes: &mut Hashes) -> Result<String, CurveError> {
+pub(super) fn stamp(
+    job: &SweepRun,
+    text: &str,
+    tools: &Path,
+    hashes: &mut Hashes,
+) -> Result<String, CurveError> {
     let words = words(&table(&job.scene, text)?);
     let named = words.iter().map(String::as_str);
     let folder = Path::new(&job.scene).parent().unwrap_or(Path::new("")).to_owned();
@@ -81,6 +85,10 @@ fn words(value: &Value) -> Vec<String> {
             .collect(),
         _ => Vec::new(),
     }
+}
+
+pub(super) fn table(file: &str, text: &str) -> Result<Value, CurveError> {
+    text.parse().map(Value::Table).map_err(|e: toml::de::Error| CurveError::Failed(format!("{file}: {e}")))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Makes the points that are not finished, and reads their results.
 
-use super::script::{BUSY, Counter, Job, NOW};
+use super::script::{BUSY, Counter, NOW, SweepRun};
 use crate::study::{CurveError, Work};
 use serde_json::Value;
 use std::os::unix::process::ExitStatusExt;
@@ -28,25 +28,25 @@ pub enum Made {
 }
 
 /// The stamp and exit code that a run has left.
-fn left(job: &Job) -> Option<(String, String)> {
+fn left(job: &SweepRun) -> Option<(String, String)> {
     let text = std::fs::read_to_string(job.file("made")).ok()?;
     let (stamp, code) = text.trim().split_once(' ')?;
     Some((stamp.to_owned(), code.to_owned()))
 }
 
 /// Whether a run would come to the same end again: done, or stopped by a guard.
-fn finished(job: &Job) -> bool {
-    let by_signal = || report(job).is_ok_and(|r| r["stopped"].as_str() == Some(record::SIGNAL));
+fn finished(job: &SweepRun) -> bool {
+    let by_signal = || report(job).is_ok_and(|r| record::ReportedStop::is_by_signal(&r));
     left(job).is_some_and(|(stamp, code)| stamp == job.stamp && (code == "0" || code == "3" && !by_signal()))
         && !has_read_others(job)
 }
 
 /// Whether a file that a run has read is another one now.
-fn has_read_others(job: &Job) -> bool {
+fn has_read_others(job: &SweepRun) -> bool {
     !stream::reads::changed(&job.file(stream::reads::RECORD), None).is_empty()
 }
 
-fn report(job: &Job) -> Result<Value, CurveError> {
+fn report(job: &SweepRun) -> Result<Value, CurveError> {
     let file = job.file("report.json");
     let text = read_file(&file, &format!("{}: cannot read it", file.display()))?;
     serde_json::from_str(&text)
@@ -88,7 +88,7 @@ pub fn counter(work: Work) -> Result<Option<Counter>, CurveError> {
 /// Runs that are not finished, and how many were made from another scene, input or program.
 pub struct Open<'a> {
     /// The runs.
-    pub jobs: Vec<&'a Job>,
+    pub jobs: Vec<&'a SweepRun>,
     /// Runs that are made again.
     pub outdated: usize,
     /// A program of the line before runs that are used again, which may read files that the line does not name.
@@ -100,16 +100,16 @@ pub struct Open<'a> {
 /// # Errors
 /// A folder that cannot be written to.
 pub fn scripts<'a>(
-    jobs: &'a [Job],
+    jobs: &'a [SweepRun],
     tools: &Path,
     work: Work,
     counter: Option<Counter>,
 ) -> Result<Open<'a>, CurveError> {
     let here = std::env::current_dir().map_err(CurveError::io("the current folder"))?;
     let is_other =
-        |job: &&Job| left(job).is_some_and(|(stamp, _)| stamp != job.stamp) || has_read_others(job);
+        |job: &&SweepRun| left(job).is_some_and(|(stamp, _)| stamp != job.stamp) || has_read_others(job);
     let outdated = jobs.iter().filter(is_other).count();
-    let open: Vec<&Job> = jobs.iter().filter(|job| !finished(job) || uncounted(job, work)).collect();
+    let open: Vec<&SweepRun> = jobs.iter().filter(|job| !finished(job) || uncounted(job, work)).collect();
     for job in &open {
         let write = || {
             std::fs::create_dir_all(&job.folder)?;
@@ -132,7 +132,7 @@ pub fn scripts<'a>(
 }
 
 /// Whether instructions are asked for that were not counted.
-fn uncounted(job: &Job, work: Work) -> bool {
+fn uncounted(job: &SweepRun, work: Work) -> bool {
     work == Work::Instructions && !job.file("instructions").exists()
 }
 
@@ -151,10 +151,10 @@ pub(super) fn is_ended(status: ExitStatus) -> bool {
 /// # Errors
 /// A signal, a script that cannot be started.
 pub fn run(
-    jobs: &[&Job],
+    jobs: &[&SweepRun],
     at_once: usize,
     stop: fn() -> bool,
-    begins: &(dyn Fn(&Job) + Sync),
+    begins: &(dyn Fn(&SweepRun) + Sync),
     ends: &(dyn Fn() + Sync),
 ) -> Result<(), CurveError> {
     let (next, trouble) = (AtomicUsize::new(0), Mutex::new(None));
@@ -219,7 +219,7 @@ pub fn run(
 ///
 /// # Errors
 /// A run that left nothing, or that a signal ended.
-pub fn read(job: &Job, work: Work, counter: Option<Counter>) -> Result<Made, CurveError> {
+pub fn read(job: &SweepRun, work: Work, counter: Option<Counter>) -> Result<Made, CurveError> {
     let words = std::fs::read_to_string(job.file("words")).unwrap_or_default();
     let lost =
         || CurveError::Failed(format!("{}: the run ended without a message: {words}", job.folder.display()));
@@ -250,7 +250,7 @@ pub fn read(job: &Job, work: Work, counter: Option<Counter>) -> Result<Made, Cur
 }
 
 /// What the runs have warned of, and how many of them did: each text once, in the order of the runs.
-pub fn warnings(jobs: &[Job]) -> Vec<(String, usize)> {
+pub fn warnings(jobs: &[SweepRun]) -> Vec<(String, usize)> {
     let mut all: Vec<(String, usize)> = Vec::new();
     for report in jobs.iter().filter_map(|job| report(job).ok()) {
         for text in report["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str) {
@@ -264,7 +264,7 @@ pub fn warnings(jobs: &[Job]) -> Vec<(String, usize)> {
 }
 
 /// Processor time of the run [s]: of the program, and of the system for it.
-fn cpu(job: &Job) -> Result<f64, CurveError> {
+fn cpu(job: &SweepRun) -> Result<f64, CurveError> {
     let file = job.file("cpu");
     let text = read_file(&file, &file.display().to_string())?;
     let parts: Option<Vec<f64>> =
@@ -274,7 +274,7 @@ fn cpu(job: &Job) -> Result<f64, CurveError> {
 }
 
 /// Wall time of the line that made the input [s].
-fn prepared(job: &Job) -> f64 {
+fn prepared(job: &SweepRun) -> f64 {
     let time = |name: &str| -> Option<f64> {
         std::fs::read_to_string(job.file(name)).ok()?.trim().replace(',', ".").parse().ok()
     };

@@ -1,61 +1,10 @@
 //! Cracks: bonds that broke, where and when each did.
 
-use super::{Break, break_of};
+use super::Break;
+use crate::definition::{AskError, Asked, Frames, Measure};
 use crate::observer::Observer;
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
-use crate::table::Columns;
 use crate::{MeasureError, Run, RunMessage};
-use geom::Vec3;
-use record::column::{CLUSTERS, ENERGY, FIRST, MODE, NORMAL, POSITION, RADIUS, SECOND, TIME};
-use record::topic::CRACKS;
-use stream::Table;
-
-/// A bond that broke.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Crack {
-    /// When [s].
-    pub time: f64,
-    /// Where [m].
-    pub place: Vec3,
-    /// Along the bond [–].
-    pub normal: Vec3,
-    /// Radius of the bond [m].
-    pub radius: f64,
-    /// What broke it.
-    pub by: Break,
-    /// Elastic energy that it held [J].
-    pub energy: f64,
-    /// Ids of both grains.
-    pub grains: [u64; 2],
-    /// Their clusters; 0: none.
-    pub clusters: [u64; 2],
-}
-
-impl Crack {
-    /// Cracks from the table of a message.
-    ///
-    /// # Errors
-    /// Columns that are missing, numbers that are not finite.
-    pub fn list(time: f64, table: &Table) -> Result<Vec<Crack>, MeasureError> {
-        let columns = Columns { topic: CRACKS, time, table };
-        let (place, normal) = (columns.vectors(POSITION)?, columns.vectors(NORMAL)?);
-        let (radius, energy, at) =
-            (columns.numbers(RADIUS)?, columns.numbers(ENERGY)?, columns.numbers(TIME)?);
-        let (mode, i, j) = (columns.whole(MODE)?, columns.whole(FIRST)?, columns.whole(SECOND)?);
-        let clusters = [columns.whole(CLUSTERS[0])?, columns.whole(CLUSTERS[1])?];
-        let row = |k: usize| Crack {
-            time: at[k],
-            place: place[k],
-            normal: normal[k],
-            radius: radius[k],
-            by: break_of(mode[k]),
-            energy: energy[k],
-            grains: [i[k], j[k]],
-            clusters: [clusters[0][k], clusters[1][k]],
-        };
-        Ok((0..at.len()).map(row).collect())
-    }
-}
 
 /// Lists cracks.
 pub struct CrackList {
@@ -137,5 +86,15 @@ impl Observer for CrackList {
         };
         let curves = vec![of("by tension", 1.0), of("by shear", 2.0)];
         Chart::new("Cracks").curves("time [s]", "cracks [1]", curves)
+    }
+}
+
+impl Measure for CrackList {
+    const NAME: &'static str = "cracks";
+    const HELP: &'static str = "Each bond that broke: when, where, by what, with what energy";
+    const FRAMES: Frames = Frames::Events;
+
+    fn observer(asked: &Asked) -> Result<Box<dyn Observer>, AskError> {
+        Ok(Box::new(CrackList::new(asked.between)))
     }
 }

@@ -8,6 +8,7 @@
 
 use super::pieces::{Piece, pieces};
 use super::{Bonds, NO_BONDS};
+use crate::definition::{AskError, Asked, Frames, Measure};
 use crate::observer::Observer;
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{Frame, MeasureError, Run, RunMessage};
@@ -177,6 +178,28 @@ impl Observer for Grading {
     fn chart(&self, rows: &[Row]) -> Chart {
         let both = [("before", 1), ("after", 2)];
         Chart::new("Grading").columns(("sieve [m]", 0), "passing [1]", &both, rows)
+    }
+}
+
+impl Measure for FragmentList {
+    const NAME: &'static str = "fragments";
+    const HELP: &'static str = "Mass and size of each piece that whole bonds hold together";
+    const FRAMES: Frames = Frames::One;
+
+    fn observer(_: &Asked) -> Result<Box<dyn Observer>, AskError> {
+        Ok(Box::<FragmentList>::default())
+    }
+}
+
+impl Measure for Grading {
+    const NAME: &'static str = "grading";
+    const HELP: &'static str =
+        "Share of the mass that passes sieves before and after, by pieces, and Marsal's breakage";
+    const FRAMES: Frames = Frames::OverTime;
+    const OPTIONS: &'static [&'static str] = &["sieves"];
+
+    fn observer(asked: &Asked) -> Result<Box<dyn Observer>, AskError> {
+        Ok(Box::new(Grading::new(asked.sieves.clone())))
     }
 }
 

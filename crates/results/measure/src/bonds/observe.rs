@@ -1,6 +1,7 @@
 //! The bonds of a run over time.
 
 use super::{Bonds, Fragments, NO_BONDS};
+use crate::definition::{AskError, Asked, Frames, Measure};
 use crate::observer::Observer;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
@@ -119,5 +120,16 @@ impl Observer for BondNumbers {
             &[("", 8)],
             rows,
         )
+    }
+}
+
+impl Measure for BondNumbers {
+    const NAME: &'static str = "bonds";
+    const HELP: &'static str =
+        "Bonds over time: how many are whole, how many broke and how, and the fragments that they leave";
+    const FRAMES: Frames = Frames::OverTime;
+
+    fn observer(_: &Asked) -> Result<Box<dyn Observer>, AskError> {
+        Ok(Box::<BondNumbers>::default())
     }
 }

@@ -1,7 +1,7 @@
 //! The pictures of a film: every moment of a series, with the same eye and the same colours.
 
 use super::Palette;
-use crate::series::Series;
+use crate::reading::series::Series;
 use crate::{GrainCount, Image, PictureOptions, Survey, ViewError, picture};
 use stream::Table;
 

@@ -1,7 +1,8 @@
 //! Keeps a page below its size limit: what is left out, and what is refused.
 
-use super::{Field, Page, PageLayer, exact::Exact, panes};
-use crate::{ViewError, field};
+use super::{Page, PageLayer, exact::Exact, page_field::Field, panes};
+use crate::ViewError;
+use crate::appearance::field;
 use stream::Table;
 
 impl Page {

@@ -7,23 +7,26 @@
 mod exact;
 mod fit;
 mod pack;
+mod page_field;
 mod panes;
 mod solids;
 mod timeline;
 mod write;
 
+use crate::appearance::{classes::Sizes, field, scale::Range};
+use crate::things::{
+    bodies::{bodies, even_out},
+    extras,
+    outline::Outline,
+    spheres::Spheres,
+};
 use crate::{
     Camera, Diagram, GrainCount, Map, Motion, Role, ViewError, WallSurface,
-    bodies::{bodies, even_out},
-    classes::Sizes,
-    extras, field,
-    outline::Outline,
     picture::{self, ArrowKey},
-    scale::Range,
-    spheres::Spheres,
 };
 use exact::Exact;
 use pack::Packed;
+use page_field::Field;
 use record::{ClumpRecord, column::RADIUS};
 use solids::PageSolids;
 use stream::{Table, Values};
@@ -114,16 +117,6 @@ pub(crate) struct PageLayer {
     pub exact: Option<Exact>,
     /// Of arrows: largest length that is not rare, in the unit of their vectors, and mean radius of the grains [m].
     pub reach: [f64; 2],
-}
-
-/// A field of a layer.
-pub(crate) struct Field {
-    pub name: String,
-    pub whole: bool,
-    /// Smallest and largest value in all frames.
-    pub all: Range,
-    /// What 98 % of the values lie in, frame by frame.
-    pub most: Range,
 }
 
 /// A page in the making.

@@ -5,8 +5,10 @@
 //! whole numbers: hi = lo + m, m = 255, 65 535 or 4 294 967 295, the least that holds them: error 0
 //! ```
 
-use super::Field;
-use crate::{GrainCount, scale::Range, spheres::Spheres};
+use super::page_field::Field;
+use crate::GrainCount;
+use crate::appearance::scale::Range;
+use crate::things::spheres::Spheres;
 use std::sync::Arc;
 
 /// How much wider than needed a box is made, so that the next frames fit in it too [–].

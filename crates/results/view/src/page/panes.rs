@@ -1,7 +1,9 @@
 //! Thin walls in a page, packed once: where they are at t = 0, and how they move.
 
 use super::{Page, PageLayer};
-use crate::{Motion, Role, SurfaceShape, WallSurface, outline::Outline, scale::Range, sheet};
+use crate::appearance::scale::Range;
+use crate::things::{outline::Outline, sheet};
+use crate::{Motion, Role, SurfaceShape, WallSurface};
 use geom::Vec3;
 use serde_json::Value;
 use std::sync::Arc;

@@ -7,7 +7,7 @@
 //! ```
 
 use super::pack::Packed;
-use crate::{solid::Solid, spheres::Spheres};
+use crate::things::{solid::Solid, spheres::Spheres};
 use geom::Vec3;
 use record::ClumpRecord;
 use serde_json::{Value, json};

@@ -5,7 +5,9 @@ use super::{
     pack::Column,
     panes::{self, Framed, Pane},
 };
-use crate::{Diagram, Map, Role, ViewError, colour, extras, field, picture::ArrowKey, scale, sheet};
+use crate::appearance::{colour, field, scale};
+use crate::things::{extras, sheet};
+use crate::{Diagram, Map, Role, ViewError, picture::ArrowKey};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use geom::Vec3;
 use serde_json::{Value, json};

@@ -3,19 +3,18 @@
 mod extras;
 
 use super::{
-    PictureOptions, font,
+    caption::text_height,
+    counts::Counts,
+    font,
     ink::{Anchor, Canvas, Pen},
     key::Key,
     lens::Lens,
+    options::PictureOptions,
     paint::Painted,
     theme::Theme,
 };
-use crate::{GrainCount, Role, bodies::counted, colour, scale};
-
-/// Height of capitals in a picture of so many pixels [pixel].
-pub fn text_height(width: u32, height: u32) -> f64 {
-    (f64::from(height.min(width)) / 62.0).max(7.0)
-}
+use crate::appearance::{colour, scale};
+use crate::{GrainCount, Role};
 
 /// Adds what of it is in the rows of a canvas.
 pub fn add(canvas: Canvas, painted: &Painted, lens: &Lens, options: &PictureOptions) {
@@ -34,7 +33,7 @@ pub fn add(canvas: Canvas, painted: &Painted, lens: &Lens, options: &PictureOpti
         Key::Classes { classes, map } => {
             let of = |k| map.at(classes.share(k)).map(|c| (c * 255.0).round() as u8);
             let colours: Vec<colour::Rgb> = (0..classes.names.len()).map(of).collect();
-            kinds(&mut pen, [w, h], text, crate::field::SIZE, &classes.names, &colours);
+            kinds(&mut pen, [w, h], text, crate::appearance::field::SIZE, &classes.names, &colours);
         }
         Key::None => {}
     }
@@ -57,49 +56,13 @@ pub fn add(canvas: Canvas, painted: &Painted, lens: &Lens, options: &PictureOpti
     gnomon(&mut pen, [w - 4.6 * text, h - 4.6 * text], text, lens, theme.axes);
 }
 
-/// The parts of a picture in which text stands, as left, top, right, bottom [pixel]: at the top left, and at the bottom
-/// left. They are the same for all pictures of a film.
-pub fn boxes(painted: &Painted, options: &PictureOptions) -> [[f64; 4]; 2] {
-    let [w, h] = [options.width, options.height].map(f64::from);
-    let text = text_height(options.width, options.height);
-    let margin = 2.2 * text;
-    let wide = |line: &str, height: f64| font::lay_out(line).1 * height / font::CAPITAL;
-    let time = options.time.map_or(0.0, |t| wide(&format!("t = {t:.3} s"), 1.15 * text));
-    let lines = 1.0
-        + if options.time.is_some() { 1.1 } else { 0.0 }
-        + if painted.bonds.is_some() { 2.0 } else { 0.0 };
-    let right = margin + time.max(wide(&words(painted.counts, painted.shrunk), text)) + text;
-    let arrow = if painted.arrows.is_some() { 4.4 * text } else { 0.0 };
-    let scale = [0.0, h - margin - 2.6 * text - arrow, margin + 0.16 * w + 2.0 * text, h];
-    [[0.0, 0.0, right, margin + 2.1 * lines * text], scale]
-}
-
-/// What there is of each kind.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Counts {
-    pub grains: GrainCount,
-    pub walls: usize,
-    pub points: usize,
-}
-
 /// "50 000 grains, 12 000 wall spheres".
 fn count(painted: &Painted) -> String {
     let layers = |role| painted.layers.iter().filter(move |l| l.role == role);
     let spheres = |role| layers(role).map(|l| l.spheres.len()).sum();
     let grains = layers(Role::Grains).map(|l| GrainCount::with(l.spheres.len(), &l.bodies));
     let grains = grains.fold(GrainCount::default(), GrainCount::plus);
-    words(Counts { grains, walls: spheres(Role::Walls), points: spheres(Role::Cloud) }, painted.shrunk)
-}
-
-fn words(counts: Counts, shrunk: f64) -> String {
-    let of = |count: usize, word: &str| (count > 0).then(|| counted(count, word));
-    let grains = Some(counts.grains.to_string()).filter(|words| !words.is_empty());
-    let grains = grains.map(|words| match shrunk {
-        1.0 => words,
-        shrunk => format!("{words} at {:.0} % of their size", 100.0 * shrunk),
-    });
-    let words = [grains, of(counts.walls, "wall spheres"), of(counts.points, "points")];
-    words.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    Counts { grains, walls: spheres(Role::Walls), points: spheres(Role::Cloud) }.words(painted.shrunk)
 }
 
 /// A number as printed, with a true minus.

@@ -1,6 +1,8 @@
 //! The colour key, and the colours of a table by it.
 
-use crate::{Map, bodies::even_out, classes::Classes, colour, field, scale::Range};
+use crate::Map;
+use crate::appearance::{classes::Classes, colour, field, scale::Range};
+use crate::things::bodies::even_out;
 use record::column::BODY;
 use stream::{Table, Values};
 

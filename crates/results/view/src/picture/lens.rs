@@ -1,12 +1,13 @@
 //! The projection: from metres to samples of the picture.
 
 use super::{
-    PictureOptions,
-    furniture::{boxes, text_height},
+    caption::{boxes, text_height},
     hull::meets,
+    options::PictureOptions,
     paint::Painted,
 };
-use crate::{camera, scale::Range};
+use crate::appearance::{camera, scale::Range};
+use crate::{GrainCount, Role};
 use geom::Vec3;
 
 /// Samples along each side of a pixel.
@@ -169,6 +170,24 @@ impl Lens {
     /// Whether any of a sphere [m] is in the picture.
     pub fn reaches(&self, centre: Vec3, radius: f64) -> bool {
         self.window(self.seen(centre), radius).is_some_and(|window| self.shows(window))
+    }
+
+    /// Grains that are not in the picture at all, unless the place of the eye was given, and all grains.
+    pub fn outside(&self, painted: &Painted, options: &PictureOptions) -> [usize; 2] {
+        let mut found = [0; 2];
+        for layer in painted.layers.iter().filter(|l| l.role == Role::Grains) {
+            let count = GrainCount::with(layer.spheres.len(), &layer.bodies);
+            let missed = |row: usize| !self.reaches(layer.spheres.at(row), layer.spheres.radius(row));
+            let mut alone: Vec<bool> = (0..layer.spheres.len()).map(missed).collect();
+            for rows in &layer.bodies {
+                let all = rows.iter().all(|&row| alone[row as usize]);
+                rows.iter().for_each(|&row| alone[row as usize] = false);
+                alone[rows[0] as usize] = all;
+            }
+            let missed = alone.iter().filter(|missed| **missed).count();
+            found = [found[0] + missed, found[1] + count.grains()];
+        }
+        if options.camera.eye.is_some() { [0, found[1]] } else { found }
     }
 
     /// The direction of an axis of the world (0 x, 1 y, 2 z) on the picture: right, down, and away.

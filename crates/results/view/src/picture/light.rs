@@ -2,23 +2,20 @@
 //! reflection, by which dark grains show their shape too.
 
 use super::{
-    PictureOptions,
-    glaze::Glaze,
     joined::Joined,
-    kin::Kin,
+    joined_bodies::JoinedBodies,
     lens::{Lens, SAMPLES},
+    options::PictureOptions,
     paint::{Painted, PaintedLayer},
-    rods::Rod,
-    shadow::Shadow,
+    rod::Rod,
+    shadow::{LAMP, Shadow},
     splat::{Depths, Met, NOTHING, splat},
     theme::Theme,
+    thin_walls::ThinWalls,
 };
 use crate::Role;
 use geom::Vec3;
 use rayon::prelude::*;
-
-/// Direction to the lamp: right, up, forward (unit length).
-pub const LAMP: [f32; 3] = [-0.424, 0.707, -0.566];
 
 /// All samples of a pixel.
 const ALL: [usize; SAMPLES * SAMPLES] = [0, 1, 2, 3];
@@ -47,7 +44,7 @@ struct Shaded<'a> {
     /// Their numbers follow those of the spheres.
     rods: Vec<Rod>,
     /// Which of them are one body.
-    kin: Kin,
+    joined: JoinedBodies,
     /// How far around a sample shade is looked for [m].
     reach: f64,
 }
@@ -74,15 +71,15 @@ pub fn render<E>(
     let extent = painted.ball();
     let mut solid = Shaded::new(&solid, &painted.rods, lens, extent, keep);
     let mut glass = Shaded::new(&glass, &[], lens, extent, keep);
-    let mut glaze = Glaze::new(&painted.panes, lens, options);
+    let mut walls = ThinWalls::new(&painted.panes, lens, options);
     let (opacity, theme) = (options.wall_opacity as f32, Theme::of(options.dark));
     let (width, height) = (options.width as usize, options.height as usize);
     for top in (0..height).step_by(ROWS) {
         let rows = [top, (top + ROWS).min(height)].map(|row| row * SAMPLES);
         solid.hold(rows, lens);
         glass.hold(rows, lens);
-        glaze.hold(rows, lens, [&solid.depths, &glass.depths], &solid.shadow);
-        let (solid, glass, glaze) = (&solid, &glass, &glaze);
+        walls.hold(rows, lens, [&solid.depths, &glass.depths], &solid.shadow);
+        let (solid, glass, walls) = (&solid, &glass, &walls);
         let mut rgba = vec![255u8; width * (rows[1] - rows[0]) / SAMPLES * 4];
         rgba.par_chunks_mut(width * 4).enumerate().for_each(|(n, row)| {
             let y = top + n;
@@ -91,7 +88,7 @@ pub fn render<E>(
                 let mut sum = [0f32; 3];
                 for sample in samples {
                     let at = [x * SAMPLES + sample % SAMPLES, y * SAMPLES + sample / SAMPLES];
-                    let seen = through([solid, glass], glaze, lens, at, (opacity, theme));
+                    let seen = through([solid, glass], walls, lens, at, (opacity, theme));
                     sum = std::array::from_fn(|k| sum[k] + seen[k]);
                 }
                 for k in 0..3 {
@@ -122,21 +119,21 @@ fn whole(solid: &Depths, glass: &Depths, lens: &Lens, [x, y]: [usize; 2]) -> boo
 /// The colour of one sample: grains, and walls before or behind them.
 fn through(
     [solid, glass]: [&Shaded; 2],
-    glaze: &Glaze,
+    walls: &ThinWalls,
     lens: &Lens,
     at: [usize; 2],
     (opacity, theme): (f32, Theme),
 ) -> [f32; 3] {
     let place = at[1] * lens.size[0] + at[0];
     let grain = solid.colour(lens, at, None).map(|(colour, edge)| theme.lit(colour, edge));
-    let mut seen = glaze.behind(place, grain.unwrap_or(theme.paper));
+    let mut seen = walls.behind(place, grain.unwrap_or(theme.paper));
     if glass.depths.depth(place) < solid.depths.depth(place)
         && let Some((wall, _)) = glass.colour(lens, at, Some(&solid.shadow))
     {
         let share = if grain.is_some() { opacity } else { theme.wall + (1.0 - theme.wall) * opacity };
         seen = std::array::from_fn(|k| seen[k] + share * (wall[k] - seen[k]));
     }
-    glaze.before(place, seen)
+    walls.before(place, seen)
 }
 
 impl<'a> Shaded<'a> {
@@ -149,24 +146,24 @@ impl<'a> Shaded<'a> {
         keep: Option<impl Fn(Vec3) -> bool + Copy>,
     ) -> Self {
         let spheres = Joined::new(layers, |layer| keep.filter(|_| layer.role == Role::Walls));
-        let (mut kin, mut rods) = (Kin::default(), rods.to_vec());
+        let (mut joined, mut rods) = (JoinedBodies::default(), rods.to_vec());
         let mut of_bodies = vec![None; rods.len()];
         for (layer, first) in spheres.layers() {
             // Only walls lose spheres by `keep`, and they have no bodies.
-            let bodies = join_bodies(&mut kin, layer, first, lens);
+            let bodies = join_bodies(&mut joined, layer, first, lens);
             for (n, own) in &layer.solids {
                 of_bodies.extend(vec![Some(bodies[*n]); own.len()]);
                 rods.extend(own);
             }
         }
         for (n, body) in of_bodies.iter().enumerate() {
-            body.iter().for_each(|&body| kin.join(spheres.len() + n, body));
+            body.iter().for_each(|&body| joined.join(spheres.len() + n, body));
         }
         let usual = spheres.usual_radius();
         // First: it lets go of its tiles, of which those of the picture stay.
-        let shadow = Shadow::of(&spheres, &rods, &kin, usual, lens, extent);
+        let shadow = Shadow::of(&spheres, &rods, &joined, usual, lens, extent);
         let depths = splat(&spheres, &rods, lens);
-        Shaded { depths, shadow, spheres, rods, kin, reach: 4.0 * usual }
+        Shaded { depths, shadow, spheres, rods, joined, reach: 4.0 * usual }
     }
 
     /// Holds these rows of samples, and those above and below that shade is looked for in.
@@ -183,8 +180,8 @@ impl<'a> Shaded<'a> {
         let depth = f64::from(self.depths.depth(place));
         let point = lens.at(at, depth);
         let mut met = self.depths.met(place, point, &self.spheres, lens)?;
-        met.body = self.kin.of(met.number);
-        met.normal = self.kin.normal(met.number, point).unwrap_or(met.normal);
+        met.body = self.joined.of(met.number);
+        met.normal = self.joined.normal(met.number, point).unwrap_or(met.normal);
         let normal = met.normal;
         let facing: f32 = (0..3).map(|k| normal[k] * LAMP[k]).sum();
         let lit = |shadow: &Shadow| shadow.lit(lens, point, &met, at);
@@ -241,18 +238,18 @@ impl<'a> Shaded<'a> {
 
     /// The body that a sample sees.
     fn body_at(&self, at: [usize; 2], lens: &Lens) -> Option<u32> {
-        self.kin.of(self.depths.number(at[1] * lens.size[0] + at[0])?)
+        self.joined.of(self.depths.number(at[1] * lens.size[0] + at[0])?)
     }
 }
 
 /// Adds the bodies of a layer, whose spheres are numbered from `first`; their numbers.
-fn join_bodies(kin: &mut Kin, layer: &PaintedLayer, first: usize, lens: &Lens) -> Vec<u32> {
+fn join_bodies(joined: &mut JoinedBodies, layer: &PaintedLayer, first: usize, lens: &Lens) -> Vec<u32> {
     let mut smooth = vec![true; layer.bodies.len()];
     layer.solids.iter().for_each(|(n, _)| smooth[*n] = false);
     let seen = |&row: &u32| (lens.seen(layer.spheres.at(row as usize)), layer.spheres.radius(row as usize));
     let body = |(rows, smooth): (&Vec<u32>, bool)| {
         let numbers: Vec<usize> = rows.iter().map(|&row| first + row as usize).collect();
-        kin.add(&numbers, if smooth { rows.iter().map(seen).collect() } else { Vec::new() })
+        joined.add(&numbers, if smooth { rows.iter().map(seen).collect() } else { Vec::new() })
     };
     layer.bodies.iter().zip(smooth).map(body).collect()
 }

@@ -1,17 +1,21 @@
 //! Pictures: spheres with their true outlines, drawn by a z-buffer of our own, the same bits every time.
 
+mod caption;
+mod counts;
+mod drawn_table;
 mod font;
 mod furniture;
-mod glaze;
 mod hull;
 mod ink;
 mod joined;
+mod joined_bodies;
 mod key;
-mod kin;
 mod lens;
 mod light;
+mod options;
 mod paint;
 mod png;
+mod rod;
 mod rods;
 mod shadow;
 mod shapes;
@@ -19,58 +23,19 @@ mod solid;
 mod splat;
 mod survey;
 mod theme;
+mod thin_walls;
 
-pub use paint::DrawnTable;
+pub use drawn_table::DrawnTable;
+pub use options::PictureOptions;
 pub use png::Png;
 pub(crate) use shapes::{ArrowKey, arrow_key};
 pub use survey::Survey;
 
-use crate::{Camera, Map, ViewError, WallSurface, field};
+use crate::appearance::field;
+use crate::{ViewError, WallSurface};
 use ink::Canvas;
 use paint::Painted;
 use stream::Table;
-
-/// A picture's settings.
-#[derive(Debug, Clone)]
-pub struct PictureOptions {
-    /// Width [pixel].
-    pub width: u32,
-    /// Height [pixel].
-    pub height: u32,
-    /// Where to look from.
-    pub camera: Camera,
-    /// Field to colour by; none: speed, else height.
-    pub colour: Option<String>,
-    /// Colour map.
-    pub map: Map,
-    /// Ends of the colour scale in the field's unit; none: what 98 % of the values lie in.
-    pub range: Option<[f64; 2]>,
-    /// Time to state in the picture [s].
-    pub time: Option<f64>,
-    /// How much of the grains a wall in front of them hides, 0 to 1.
-    pub wall_opacity: f64,
-    /// Leave out the half of the walls that is nearer to the eye than the middle.
-    pub cut: bool,
-    /// Light text on dark paper.
-    pub dark: bool,
-}
-
-impl Default for PictureOptions {
-    fn default() -> Self {
-        PictureOptions {
-            width: 1920,
-            height: 1080,
-            camera: Camera::default(),
-            colour: None,
-            map: Map::default(),
-            range: None,
-            time: None,
-            wall_opacity: 0.2,
-            cut: false,
-            dark: false,
-        }
-    }
-}
 
 /// A picture: red, green, blue, alpha, row by row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -170,7 +135,7 @@ fn rows(
         furniture::add(canvas, &painted, &lens, options);
         each(&rgba)
     })?;
-    Ok(Drawn { subject: lens.longer_side(&painted.outline), outside: painted.outside(&lens, options) })
+    Ok(Drawn { subject: lens.longer_side(&painted.outline), outside: lens.outside(&painted, options) })
 }
 
 /// The colour of the paper.

@@ -1,45 +1,20 @@
 //! What is drawn: every sphere of every part, with its colour, and thin walls.
 
 use super::{
-    PictureOptions,
-    furniture::Counts,
+    counts::Counts,
+    drawn_table::DrawnTable,
     key::{Key, plain},
-    lens::Lens,
-    rods::Rod,
+    options::PictureOptions,
+    rod::Rod,
     shapes::{self, ArrowKey},
     solid::rods,
     survey::Survey,
     theme::Theme,
 };
-use crate::{
-    GrainCount, Role, SurfaceShape, ViewError, WallSurface, bodies::bodies, extras::GRAINS, scale::Range,
-    sheet, solid::Solid, spheres::Spheres,
-};
+use crate::appearance::scale::Range;
+use crate::things::{extras::GRAINS, sheet, solid::Solid, spheres::Spheres};
+use crate::{Role, SurfaceShape, ViewError, WallSurface};
 use geom::Vec3;
-use record::ClumpRecord;
-use stream::Table;
-
-/// One table to draw.
-#[derive(Debug, Clone)]
-pub struct DrawnTable<'a> {
-    /// How it is drawn.
-    pub role: Role,
-    /// For messages.
-    pub name: String,
-    /// x, y, z, radius, fields.
-    pub table: &'a Table,
-    /// Names of the kinds that the field `material` counts.
-    pub kinds: Vec<String>,
-    /// Shapes of clumps.
-    pub clumps: Vec<ClumpRecord>,
-}
-
-impl DrawnTable<'_> {
-    /// The rows of each clump.
-    pub(super) fn bodies(&self) -> Vec<Vec<u32>> {
-        if self.role == Role::Grains { bodies(self.table) } else { Vec::new() }
-    }
-}
 
 /// Edges and faces of the clumps that are polyhedra, with the place of each in `bodies`.
 fn solids(
@@ -183,24 +158,6 @@ impl Painted<'_> {
         }
         self.outline = outline.points();
         self.extent = sheet::box_of(&self.outline);
-    }
-
-    /// Grains that are not in the picture at all, unless the place of the eye was given, and all grains.
-    pub fn outside(&self, lens: &Lens, options: &PictureOptions) -> [usize; 2] {
-        let mut found = [0; 2];
-        for layer in self.layers.iter().filter(|l| l.role == Role::Grains) {
-            let count = GrainCount::with(layer.spheres.len(), &layer.bodies);
-            let missed = |row: usize| !lens.reaches(layer.spheres.at(row), layer.spheres.radius(row));
-            let mut alone: Vec<bool> = (0..layer.spheres.len()).map(missed).collect();
-            for rows in &layer.bodies {
-                let all = rows.iter().all(|&row| alone[row as usize]);
-                rows.iter().for_each(|&row| alone[row as usize] = false);
-                alone[rows[0] as usize] = all;
-            }
-            let missed = alone.iter().filter(|missed| **missed).count();
-            found = [found[0] + missed, found[1] + count.grains()];
-        }
-        if options.camera.eye.is_some() { [0, found[1]] } else { found }
     }
 
     /// Middle of what is looked at [m].

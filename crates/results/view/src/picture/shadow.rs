@@ -3,10 +3,9 @@
 
 use super::{
     joined::Joined,
-    kin::Kin,
+    joined_bodies::JoinedBodies,
     lens::Lens,
-    light::LAMP,
-    rods::Rod,
+    rod::Rod,
     splat::{Met, NOTHING, splat},
 };
 use geom::Vec3;
@@ -22,6 +21,9 @@ const DEEP: f32 = 0.8;
 
 /// How far around a place the lamp is looked for, for soft edges [sample].
 const SOFT: f64 = 1.3;
+
+/// Direction to the lamp: right, up, forward (unit length).
+pub const LAMP: [f32; 3] = [-0.424, 0.707, -0.566];
 
 /// A drawing from the lamp.
 pub struct Shadow {
@@ -42,7 +44,7 @@ impl Shadow {
     pub fn of(
         spheres: &Joined,
         rods: &[Rod],
-        kin: &Kin,
+        joined: &JoinedBodies,
         usual: f64,
         eye: &Lens,
         (middle, radius): (Vec3, f64),
@@ -53,8 +55,8 @@ impl Shadow {
         let fine = 2.0 * radius / SIZE as f64;
         let mut drawn = splat(spheres, rods, &lamp);
         drawn.hold([0, SIZE], spheres, &lamp);
-        let body_at = |at| drawn.number(at).and_then(|n| kin.of(n)).unwrap_or(NOTHING);
-        let body = if kin.is_empty() { Vec::new() } else { (0..SIZE * SIZE).map(body_at).collect() };
+        let body_at = |at| drawn.number(at).and_then(|n| joined.of(n)).unwrap_or(NOTHING);
+        let body = if joined.is_empty() { Vec::new() } else { (0..SIZE * SIZE).map(body_at).collect() };
         Shadow { lamp, depth: drawn.all(), body, fine, reach: REACH * usual }
     }
 

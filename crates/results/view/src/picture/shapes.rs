@@ -1,8 +1,8 @@
 //! The rods of bonds, cracks and arrows.
 
-use super::rods::{Rod, RodShape};
-use crate::extras::{ALONG, ARROW, Arrows, BOND, CRACK, HEAD};
-use crate::scale::{Range, round_below};
+use super::rod::{Rod, RodShape};
+use crate::appearance::scale::{Range, round_below};
+use crate::things::extras::{ALONG, ARROW, Arrows, BOND, CRACK, HEAD};
 use geom::Vec3;
 use record::column::{BROKEN, POSITION, RADIUS};
 use stream::{Table, Values};

@@ -1,7 +1,7 @@
 //! The faces and edges of polyhedra, as rods.
 
-use super::rods::{Rod, RodShape};
-use crate::{solid::Solid, spheres::Spheres};
+use super::rod::{Rod, RodShape};
+use crate::things::{solid::Solid, spheres::Spheres};
 
 /// Edges and faces of a polyhedron between the spheres of these rows.
 pub(super) fn rods(solid: &Solid, spheres: &Spheres, rows: &[u32], colour: [f32; 3]) -> Vec<Rod> {

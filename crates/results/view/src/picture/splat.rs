@@ -7,11 +7,7 @@
 //! A picture is made from the top down, and only the rows of tiles that are looked at are held: what a large picture
 //! needs does not grow with its height.
 
-use super::{
-    joined::Joined,
-    lens::Lens,
-    rods::{Rod, SeenRod},
-};
+use super::{joined::Joined, lens::Lens, rod::Rod, rods::SeenRod};
 use rayon::prelude::*;
 
 /// Side of a tile [sample].
@@ -61,7 +57,7 @@ pub struct Met {
     pub radius: f64,
     /// Number in the list of spheres, or after these, in that of rods.
     pub number: usize,
-    /// The body that it is a part of, see [`super::kin`].
+    /// The body that it is a part of, see [`super::joined_bodies`].
     pub body: Option<u32>,
 }
 

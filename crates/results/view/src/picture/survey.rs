@@ -1,16 +1,15 @@
 //! What all pictures of a film have in common: what the camera sees, and what the colours mean.
 
 use super::{
-    PictureOptions,
-    furniture::Counts,
+    counts::Counts,
+    drawn_table::DrawnTable,
     key::{Key, scan_colours},
-    paint::DrawnTable,
+    options::PictureOptions,
     shapes::{ArrowKey, ArrowSurvey},
 };
-use crate::{
-    GrainCount, Role, SurfaceShape, ViewError, WallSurface, classes::Sizes, colour, field, outline::Outline,
-    scale::Range, sheet::box_of, spheres::Spheres,
-};
+use crate::appearance::{classes::Sizes, colour, field, scale::Range};
+use crate::things::{outline::Outline, sheet::box_of, spheres::Spheres};
+use crate::{GrainCount, Role, SurfaceShape, ViewError, WallSurface};
 use geom::Vec3;
 use stream::Table;
 

@@ -18,10 +18,9 @@ pub use collection::{Entry, write as write_collection};
 pub use polydata::{Field, PolyData};
 pub use series::SeriesFolder;
 
-use crate::{
-    DrawnTable, Role, ViewError, WallSurface, outline::Outline, scale::Range, sheet, sheet::box_of,
-    spheres::Spheres,
-};
+use crate::appearance::scale::Range;
+use crate::things::{outline::Outline, sheet, sheet::box_of, spheres::Spheres};
+use crate::{DrawnTable, Role, ViewError, WallSurface};
 use stream::{Table, Values};
 
 /// What stands in the field `role` for planes and meshes.

@@ -3,7 +3,7 @@
 use super::polydata::escaped;
 use super::{Entry, PolyData, Reach, points, walls};
 use crate::ViewError;
-use crate::series::{KeepState, Series, SeriesLayer};
+use crate::reading::series::{KeepState, Series, SeriesLayer};
 use std::cell::RefCell;
 use std::collections::HashSet;
 use std::fs::{self, File};

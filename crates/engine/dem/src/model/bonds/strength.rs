@@ -1,9 +1,9 @@
 //! The strength of one bond: drawn from the ids of its two particles, so that neither order nor threads change it.
 
 use crate::setup::{BondStrength, Spread};
-use geom::random::{generator, unit};
+use geom::random::{generator, normal, unit};
 use rand_pcg::Pcg64Mcg;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Spreads seeds over all bits: 2⁶⁴ over the golden ratio.
 const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -33,12 +33,6 @@ impl Spread {
             }
         }
     }
-}
-
-/// A standard normal number: Box & Muller (1958), doi:10.1214/aoms/1177706645.
-fn normal(random: &mut Pcg64Mcg) -> f64 {
-    let (a, b) = (unit(random), unit(random));
-    (-2.0 * libm::log(1.0 - a)).sqrt() * libm::cos(TAU * b)
 }
 
 #[cfg(test)]

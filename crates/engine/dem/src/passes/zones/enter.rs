@@ -77,7 +77,7 @@ fn arrives(entry: &Entry, zone: &Zone, setup: &Setup) -> Result<(), SetupError> 
     let past = zone.plane.signed_distance(&p.position) + lead(p, entry.clump.as_ref(), zone, setup);
     let Some(time) = zone.arrives_after(past, &p.velocity, &setup.gravity) else {
         let speed = zone.plane.normal.dot(&p.velocity);
-        let quantity = Subject::Entry(p.id).quantity("velocity along the flow");
+        let quantity = Subject::EntryAlongFlow(p.id).quantity("velocity");
         let allowed = "what brings it to the calculation plane: above 0, or in free fall";
         return Err(out_of_range(quantity, speed, "m/s", allowed));
     };

@@ -1,8 +1,9 @@
 //! What stops a run.
 
 use super::{Advice, WALL, floor, states_a_fact};
-use crate::advice::{DEVICE_FAILED, Remedy, explain_halt};
+use crate::advice::{Remedy, explain_halt, stop_cause};
 use dem::*;
+use record::{Guard, StopCause};
 
 fn halts() -> Vec<Advice<Halt>> {
     let (time, id, inlet, share, limit) = (0.5, 7, 1, 0.5, 0.25);
@@ -67,7 +68,7 @@ fn halts() -> Vec<Advice<Halt>> {
         ),
         (
             Halt::Device { time, what: "GPU 0: out of memory".to_owned() },
-            &["GPU 0", DEVICE_FAILED, "without --device"],
+            &["GPU 0", "the device has failed", "without --device"],
         ),
         (
             Halt::InletOverlap {
@@ -115,6 +116,25 @@ fn every_halt_states_a_fact_and_the_scene_adds_key_and_remedy() {
         let text = explain_halt(halt);
         words.iter().for_each(|word| assert!(text.contains(word), "'{word}' not in: {text}"));
         assert!(text.contains("t = 5.000000e-1 s"), "{text}");
+    }
+}
+
+/// A guard that a key widens is named by that key.
+#[test]
+fn the_guard_of_a_halt_is_the_one_that_its_remedies_name() {
+    for (halt, _) in halts() {
+        let remedies = Remedy::of(&halt);
+        for (remedy, guard) in [
+            (Remedy::RaiseOverlap, Guard::Overlap),
+            (Remedy::RaiseMotion, Guard::Motion),
+            (Remedy::RaiseEnergy, Guard::Energy),
+            (Remedy::AllowReturned, Guard::Zones),
+        ] {
+            let is_this = stop_cause(&halt) == StopCause::Guard { guard };
+            assert_eq!(is_this, remedies.contains(&remedy), "{halt}");
+        }
+        let is_device = matches!(halt, Halt::Device { .. });
+        assert_eq!(stop_cause(&halt) == StopCause::Device, is_device, "{halt}");
     }
 }
 

@@ -1,12 +1,12 @@
 //! What bonds, cracks and arrows mean.
 
-use crate::bodies::grouped;
 use crate::picture::{
     ink::{Anchor, Pen},
     lens::Lens,
     paint::Painted,
     shapes::{self, ArrowKey},
 };
+use crate::things::bodies::grouped;
 
 /// Adds what there is: bonds from `top` down, the arrow at `bottom`.
 pub fn add(pen: &mut Pen, top: [f64; 2], bottom: [f64; 2], text: f64, painted: &Painted, lens: &Lens) {
@@ -34,7 +34,7 @@ fn arrow(pen: &mut Pen, [x, y]: [f64; 2], text: f64, key: &ArrowKey, lens: &Lens
     let tip = [x + length, y];
     let back = |side: f64| [x + length - head, y + 0.45 * side * head];
     pen.strokes(&[[tip, back(1.0)], [tip, back(-1.0)]], (0.2 * text).max(1.2));
-    let (unit, factor) = crate::scale::readable(key.of.unit(), key.example);
+    let (unit, factor) = crate::appearance::scale::readable(key.of.unit(), key.example);
     let label = format!("{} {} {unit}", key.of.word(), geom::Shown(key.example * factor));
     pen.text([x, y - 0.9 * text], text, Anchor::Left, &label);
 }

@@ -1,0 +1,7 @@
+//! What a calibration has found: judgement, page, pictures and words.
+
+pub mod guess;
+pub(crate) mod judge;
+pub(crate) mod page;
+pub(crate) mod picture;
+pub mod words;

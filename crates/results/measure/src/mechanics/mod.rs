@@ -1,0 +1,10 @@
+//! Mechanics: contacts, forces, stress, strain and energy of particles.
+
+pub mod coordination;
+pub mod domain;
+pub mod energy;
+pub mod forces;
+pub mod plane_force;
+pub mod settling;
+pub mod strain;
+pub mod stress;

@@ -1,0 +1,5 @@
+//! Walls: forces on them, their wear, and impacts.
+
+pub mod impact;
+pub mod wall_force;
+pub mod wear;

@@ -1,0 +1,260 @@
+//! Thin walls in a picture: each veils what is behind it, the farther ones first.
+
+use super::{
+    lens::{Lens, SAMPLES},
+    options::PictureOptions,
+    paint::Pane,
+    shadow::{LAMP, Shadow},
+    splat::{Depths, Met},
+    theme::Theme,
+};
+use crate::appearance::colour;
+use geom::Vec3;
+use rayon::prelude::*;
+
+/// Rows of samples that are drawn together.
+const BAND: usize = 16;
+
+/// Nearest distance drawn, as a share of the distance of what is looked at [–].
+const NEAREST: f64 = 1e-3;
+
+/// Width of a line [pixel].
+const LINE: f64 = 1.3;
+
+/// How much a shadow on a face hides, at least [–].
+const SHADOW: f32 = 0.6;
+
+/// A triangle on the picture.
+struct Piece {
+    /// Column and row [sample], and 1/z [1/m], which is linear on the picture.
+    corner: [[f64; 3]; 3],
+    /// Brightness, and how much it hides [–].
+    tone: [f32; 2],
+    /// Nothing nearer than this is drawn: largest 1/z [1/m].
+    farthest: f64,
+    /// Planes before or behind all grains are before or behind all meshes too: 0 behind, 1 mesh, 2 before.
+    rank: u8,
+    /// Mean 1/z, for the order of the rest.
+    near: f64,
+    /// Whether it is part of a face, on which shadows fall.
+    face: bool,
+    /// Whether it is of a plane: ground, which does not show through the wall spheres before it.
+    plane: bool,
+}
+
+/// Brightness times share, and share, of what veils a sample.
+type Veil = [f32; 2];
+
+/// All thin walls in a picture.
+pub struct ThinWalls {
+    pieces: Vec<Piece>,
+    /// Between the grains and the wall spheres, and before both, for the rows that are held; empty without thin walls.
+    veils: Vec<[Veil; 2]>,
+    /// The first sample that is held.
+    first: usize,
+    /// How much darker a face is in a shadow [–].
+    shade: f32,
+}
+
+impl ThinWalls {
+    /// What is drawn of `panes`; no row is held yet.
+    pub fn new(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> ThinWalls {
+        let shade = Theme::of(options.dark).shade;
+        ThinWalls { pieces: pieces(panes, lens, options), veils: Vec::new(), first: 0, shade }
+    }
+
+    /// Draws these rows of samples, from one to before another, and lets others go: panes where they are nearer than
+    /// `solid`, and apart where they are nearer than `glass` too. On their faces lies the `shadow` of what is solid.
+    pub fn hold(
+        &mut self,
+        [from, to]: [usize; 2],
+        lens: &Lens,
+        [solid, glass]: [&Depths; 2],
+        shadow: &Shadow,
+    ) {
+        let (ThinWalls { pieces, shade, .. }, width) = (&*self, lens.size[0]);
+        if pieces.is_empty() {
+            return;
+        }
+        let mut veils = vec![[[0.0; 2]; 2]; width * (to - from)];
+        veils.par_chunks_mut(width * BAND).enumerate().for_each(|(n, band)| {
+            let first = from + n * BAND;
+            let rows = [first, first + band.len() / width];
+            for piece in pieces {
+                piece.fill(rows, width, |at, inverse| {
+                    let depth = (1.0 / inverse) as f32;
+                    if inverse <= piece.farthest && depth < solid.depth(at) {
+                        let before = usize::from(depth < glass.depth(at));
+                        if piece.plane && before == 0 {
+                            return;
+                        }
+                        let tone = piece.shaded(shadow, lens, at, 1.0 / inverse, *shade);
+                        lay(&mut band[at - rows[0] * width][before], tone);
+                    }
+                });
+            }
+        });
+        (self.veils, self.first) = (veils, from * width);
+    }
+
+    /// A colour as seen through what is between grains and wall spheres.
+    pub fn behind(&self, sample: usize, under: [f32; 3]) -> [f32; 3] {
+        self.veils.get(sample.wrapping_sub(self.first)).map_or(under, |v| veiled(under, v[0]))
+    }
+
+    /// A colour as seen through what is before both.
+    pub fn before(&self, sample: usize, under: [f32; 3]) -> [f32; 3] {
+        self.veils.get(sample.wrapping_sub(self.first)).map_or(under, |v| veiled(under, v[1]))
+    }
+}
+
+fn lay(veil: &mut Veil, [bright, hides]: [f32; 2]) {
+    *veil = [veil[0] + hides * (bright - veil[0]), veil[1] + hides * (1.0 - veil[1])];
+}
+
+fn veiled(under: [f32; 3], [bright, hides]: Veil) -> [f32; 3] {
+    let wall = colour::fraction(colour::WALL);
+    std::array::from_fn(|k| under[k] * (1.0 - hides) + wall[k] * bright)
+}
+
+/// Everything to draw, far ones first.
+fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
+    let (mut pieces, theme) = (Vec::new(), Theme::of(options.dark));
+    for pane in panes {
+        let most = if pane.side.is_some() { theme.ground } else { 1.0 };
+        let first = pieces.len();
+        for face in &pane.faces {
+            let seen = face.map(|p| lens.seen(p));
+            let tone =
+                [brightness(seen), if pane.opaque { 1.0 } else { most.min(options.wall_opacity as f32) }];
+            let cut = before_the_eye(&seen, NEAREST * lens.distance);
+            let on: Vec<[f64; 3]> = cut.iter().map(|p| projected(*p, lens)).collect();
+            pieces.extend(
+                (2..on.len()).map(|n| Piece { face: true, ..Piece::new([on[0], on[n - 1], on[n]], tone) }),
+            );
+        }
+        for line in &pane.lines {
+            let ends = before_the_eye(&line.map(|p| lens.seen(p)), NEAREST * lens.distance);
+            if let [a, b, ..] = ends[..] {
+                pieces.extend(stroke(projected(a, lens), projected(b, lens), [theme.line, pane.ink]));
+            }
+        }
+        // A plane whose grains are on the eye's side hides none of them: a floor stays whole.
+        let faces_away = |[point, normal]: [Vec3; 2]| (lens.eye - point).dot(&normal) < 0.0;
+        let rank = pane.side.map_or(1, |side| if faces_away(side) { 2 } else { 0 });
+        let farthest = if options.cut && rank > 0 { 1.0 / lens.distance } else { f64::INFINITY };
+        for piece in &mut pieces[first..] {
+            (piece.rank, piece.farthest, piece.plane) = (rank, farthest, pane.side.is_some());
+        }
+    }
+    pieces.sort_by(|a, b| a.rank.cmp(&b.rank).then(a.near.total_cmp(&b.near)));
+    pieces
+}
+
+/// A polygon, or a line, without what is nearer than `nearest` [m].
+fn before_the_eye(polygon: &[[f64; 3]], nearest: f64) -> Vec<[f64; 3]> {
+    let mut kept = Vec::new();
+    for (n, a) in polygon.iter().enumerate() {
+        let b = polygon[(n + 1) % polygon.len()];
+        if a[2] >= nearest {
+            kept.push(*a);
+        }
+        let closes = polygon.len() == 2 && n == 1;
+        if (a[2] >= nearest) != (b[2] >= nearest) && !closes {
+            let share = (nearest - a[2]) / (b[2] - a[2]);
+            kept.push(std::array::from_fn(|k| a[k] + share * (b[k] - a[k])));
+        }
+    }
+    kept
+}
+
+fn projected([x, y, z]: [f64; 3], lens: &Lens) -> [f64; 3] {
+    [lens.centre[0] + lens.focal * x / z, lens.centre[1] - lens.focal * y / z, 1.0 / z]
+}
+
+/// A line as two triangles.
+fn stroke(a: [f64; 3], b: [f64; 3], tone: [f32; 2]) -> Vec<Piece> {
+    let length = (b[0] - a[0]).hypot(b[1] - a[1]).max(1e-9);
+    let half = 0.5 * LINE * SAMPLES as f64 / length;
+    let [dx, dy] = [half * (b[1] - a[1]), half * (a[0] - b[0])];
+    let aside = |p: [f64; 3], side: f64| [p[0] + side * dx, p[1] + side * dy, p[2]];
+    let [p, q, r, s] = [aside(a, 1.0), aside(a, -1.0), aside(b, -1.0), aside(b, 1.0)];
+    [[p, q, r], [p, r, s]].map(|corner| Piece::new(corner, tone)).into()
+}
+
+/// The light on the side of a face that is seen.
+fn brightness(seen: [[f64; 3]; 3]) -> f32 {
+    let [a, b, c] = seen.map(Vec3::from);
+    let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default();
+    let normal = if normal.dot(&a) > 0.0 { -normal } else { normal };
+    let lamp: f32 = (0..3).map(|k| normal[k] as f32 * LAMP[k]).sum();
+    0.64 + 0.14 * normal.y as f32 + 0.38 * lamp.max(0.0)
+}
+
+impl Piece {
+    fn new(corner: [[f64; 3]; 3], tone: [f32; 2]) -> Piece {
+        Piece {
+            corner,
+            tone,
+            farthest: f64::INFINITY,
+            rank: 1,
+            face: false,
+            plane: false,
+            near: corner.iter().map(|c| c[2]).sum::<f64>() / 3.0,
+        }
+    }
+
+    /// Its tone at a sample: darker and thicker in a shadow.
+    fn shaded(&self, shadow: &Shadow, lens: &Lens, at: usize, depth: f64, shade: f32) -> [f32; 2] {
+        if !self.face {
+            return self.tone;
+        }
+        let sample = [at % lens.size[0], at / lens.size[0]];
+        let met = Met { normal: [0.0; 3], radius: 0.0, number: 0, body: None };
+        let dark = 1.0 - shadow.lit(lens, lens.at(sample, depth), &met, sample);
+        let [bright, hides] = self.tone;
+        [bright * (1.0 - shade * dark), hides + dark * (SHADOW - hides).max(0.0)]
+    }
+
+    /// Calls `paint` with the number and 1/z of every sample inside, in the rows given. A sample on the common edge of
+    /// two triangles belongs to one of them.
+    fn fill(&self, rows: [usize; 2], width: usize, mut paint: impl FnMut(usize, f64)) {
+        let [a, b, c] = self.corner;
+        let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if twice == 0.0 || !twice.is_finite() {
+            return;
+        }
+        let low = |k: usize| self.corner.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+        let high = |k: usize| self.corner.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+        let first = rows[0].max((low(1) - 0.5).ceil().max(0.0) as usize);
+        let last = rows[1].min((high(1) + 0.5).ceil().max(0.0) as usize);
+        // 1/z and where the sides are, as linear functions of the column in a row.
+        let slope = ((b[2] - a[2]) * (c[1] - a[1]) - (c[2] - a[2]) * (b[1] - a[1])) / twice;
+        let fall = ((c[2] - a[2]) * (b[0] - a[0]) - (b[2] - a[2]) * (c[0] - a[0])) / twice;
+        for row in first..last {
+            let y = row as f64 + 0.5;
+            let Some([left, right]) = self.span(y) else { continue };
+            let from = (left - 0.5).ceil().max(0.0) as usize;
+            let to = ((right - 0.5).ceil().max(0.0) as usize).min(width);
+            for column in from..to {
+                let x = column as f64 + 0.5;
+                paint(row * width + column, a[2] + slope * (x - a[0]) + fall * (y - a[1]));
+            }
+        }
+    }
+
+    /// Where the sides meet a row, left and right.
+    fn span(&self, y: f64) -> Option<[f64; 2]> {
+        let mut ends: Option<[f64; 2]> = None;
+        for n in 0..3 {
+            // From the upper end to the lower, so that two triangles compute a common side alike.
+            let [p, q] = [self.corner[n], self.corner[(n + 1) % 3]];
+            let [p, q] = if (p[1], p[0]) <= (q[1], q[0]) { [p, q] } else { [q, p] };
+            if p[1] <= y && y < q[1] {
+                let x = p[0] + (q[0] - p[0]) * ((y - p[1]) / (q[1] - p[1]));
+                ends = Some(ends.map_or([x, x], |[l, r]| [l.min(x), r.max(x)]));
+            }
+        }
+        ends
+    }
+}

@@ -1,0 +1,8 @@
+//! From a run to what can be shown: layers, moments, series and diagrams.
+
+pub(crate) mod diagram;
+pub(crate) mod moment;
+pub(crate) mod only;
+pub(crate) mod run;
+pub(crate) mod series;
+pub(crate) mod show;
