@@ -4,7 +4,7 @@
 //! start (engine, head of the file) → write what is due (crossings, checkpoint, frame) → let in → step → … → stop, or the end
 //! ```
 //!
-//! [`simulate`] is the loop; [`start`], [`write`] and [`stop`] are its beginning, its output and its early end. [`supply`] merges what comes
+//! [`underway`] is what a run holds, [`simulate`] the loop; [`start`], [`write`] and [`stop`] are its beginning, its output and its early end. [`supply`] merges what comes
 //! in, [`schedule`] knows which steps are written, [`frames`] makes the tables, [`checkpoint`] saves and resumes, [`earlier`] copies what a resumed run wrote before. [`explain`] runs a part of a
 //! scene to measure it. [`RunFile`] writes the same file for a run that another engine computes. Uses `scene` for the plan, `stages` for inlets and crossings, `record` for formats, `dem` for the engine.
 
@@ -26,6 +26,7 @@ mod simulate;
 mod start;
 mod stop;
 mod supply;
+mod underway;
 mod write;
 
 pub use checkpoint::Checkpoint;
@@ -39,4 +40,5 @@ pub use returned::warnings;
 pub use schedule::Schedule;
 pub use servos::ServoHeld;
 pub use settling::Settled;
-pub use simulate::{Outcome, Settings, ready, run};
+pub use simulate::{ready, run};
+pub use underway::{Outcome, Settings};

@@ -1,6 +1,6 @@
 //! How far a run is: for progress bars and monitors.
 
-use crate::simulate::Run;
+use crate::underway::Run;
 use serde::Serialize;
 use std::io::Write;
 

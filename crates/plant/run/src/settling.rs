@@ -1,7 +1,7 @@
 //! Whether the grains have come to rest: a run may end there, before its last step.
 
 use crate::error::{Ended, Result};
-use crate::simulate::Run;
+use crate::underway::Run;
 use geom::Shown;
 use record::{json, topic};
 use scene::SceneError;

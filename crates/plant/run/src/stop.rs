@@ -2,7 +2,7 @@
 
 use crate::checkpoint::{Checkpoint, Pieces};
 use crate::error::Result;
-use crate::simulate::{Before, Run, Written};
+use crate::underway::{Before, Run, Written};
 use dem::Halt;
 use record::{LogMessage, SIGNAL, StopCause, nanoseconds};
 use scene::advice::{at, explain_fact, stop_cause};

@@ -2,7 +2,7 @@
 
 use crate::error::{Ended, Result};
 use crate::frames::{self, ParticleRows};
-use crate::simulate::{Before, FrameEnergy, Run};
+use crate::underway::{Before, FrameEnergy, Run};
 use dem::setup::KeptContact;
 use record::{FRAME, Watermark, json, topic};
 use scene::input::history;

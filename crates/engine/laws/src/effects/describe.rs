@@ -3,7 +3,8 @@
 //! A description is a constant in the effect's own file; `registry.rs` lists them. Nothing else in the engine or the tools names
 //! a single effect.
 
-use super::{ContactLaw, Elastic, OverlapLimit};
+use super::law::ContactLaw;
+use super::material::{Elastic, OverlapLimit};
 use alloc::string::String;
 
 /// What an effect does in a contact. A contact has at most one effect of each slot, and slots act in this order.

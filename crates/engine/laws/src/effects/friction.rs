@@ -6,23 +6,12 @@
 //! c_t = η_n √(k_t/k_n)   with `normal_damping` alone: the share that a restitution would give it
 //! ```
 
-use super::describe::MOST;
-use super::hooke_direct::NORMAL_DAMPING;
+use super::damping::{NORMAL_DAMPING, TANGENTIAL_DAMPING};
 use super::sliding_friction::{self, COEFFICIENT};
 use super::weakening::Weakening;
-use super::{Coefficient, Contact, ContactLaw, Description, Key, Pair, Range, tangential_ratio};
+use super::{Coefficient, Contact, ContactLaw, Description, Pair, tangential_ratio};
 use crate::simd::Lane;
 use alloc::format;
-
-/// η_t.
-pub const TANGENTIAL_DAMPING: Key = Key {
-    name: "tangential_damping",
-    unit: "N s/m",
-    range: Range::UpTo(MOST),
-    required: false,
-    example: "0.3",
-    doc: "η_t of the tangential dashpot; absent: γ √(k_t m*) of the restitution, or η_n √(k_t/k_n)",
-};
 
 /// What the program knows of constant friction whose dashpot is given.
 pub const WITH_DASHPOT: Description = Description {

@@ -8,6 +8,7 @@
 //! [`super::damping_ratio`]. The contact lasts until δ = 0, so that e comes out exactly; the force may pull a little
 //! in its last moment.
 
+use super::damping::RESTITUTION;
 use super::{
     Contact, ContactLaw, Contradiction, Damping, Description, Effect, Elastic, Key, Model, NormalLaw,
     OverlapLimit, Pair, Range, Response, Slot, hooke_direct,
@@ -16,15 +17,6 @@ use crate::simd::Lane;
 use alloc::borrow::ToOwned as _;
 use core::f64::consts::PI;
 
-/// e of every normal law.
-pub const RESTITUTION: Key = Key {
-    name: "restitution",
-    unit: "",
-    range: Range::UpTo(1.0),
-    required: true,
-    example: "0.5",
-    doc: "e of a head-on impact; with cohesion or \"jkr\" that of the same contact without adhesion, whose cost comes on top",
-};
 /// k of linear laws.
 pub const STIFFNESS: Key = Key {
     name: "stiffness",

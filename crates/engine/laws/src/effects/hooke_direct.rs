@@ -13,6 +13,7 @@
 //!
 //! A dashpot that is given acts as it stands, whatever the masses: it is not matched to the time step, and the restitution of an impact follows from k, m* and η_n.
 
+use super::damping::NORMAL_DAMPING;
 use super::hooke::{self, STIFFNESS, TANGENTIAL_RATIO, TANGENTIAL_STIFFNESS};
 use super::{
     Contact, ContactEffect, ContactLaw, Contradiction, Damping, Description, Effect, Elastic, Hooke, Key,
@@ -37,15 +38,6 @@ const EFFECTIVE_MODULUS: Key = Key {
     required: false,
     example: "1e8",
     doc: "E, instead of `stiffness`: k_n = E π r²/(r_i + r_j) with the smaller radius r, E π r at a flat wall",
-};
-/// η_n of linear laws.
-pub const NORMAL_DAMPING: Key = Key {
-    name: "normal_damping",
-    unit: "N s/m",
-    range: Range::Positive,
-    required: false,
-    example: "0.5",
-    doc: "η_n of the dashpot, instead of `restitution`; without one: `restitution = 1`",
 };
 
 /// What the program knows of it.

@@ -7,7 +7,7 @@
 //!
 //! Hess & Soom (1990), J. Tribology 112(1), doi:10.1115/1.2920220, without the viscous term.
 
-use super::friction::TANGENTIAL_DAMPING;
+use super::damping::TANGENTIAL_DAMPING;
 use super::sliding_friction::SPRING;
 use super::{Coefficient, Contact, ContactLaw, Contradiction, Description, Key, Range, Slot};
 use crate::simd::Lane;
