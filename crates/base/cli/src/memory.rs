@@ -39,7 +39,7 @@ pub(crate) fn end(bytes: usize) -> *mut u8 {
     MINE.set(true);
     let (mut line, mib) = ([0; 256], (bytes >> 20).max(1));
     let mut left = &mut line[..];
-    let tool = crate::run::tool();
+    let tool = crate::invocation::tool();
     // A buffer on the stack that is long enough.
     let _ = writeln!(
         left,
