@@ -154,7 +154,7 @@ unsafe fn share<const COPY: bool>(
             Touch::of(law, [t.drive.dt, t.drive.ahead], &row, &other, 0.0)
         };
         let Some(patch) = Patch::of(law, to - from, touch) else { return ALONE };
-        let bodies = Bodies { inverse_mass: row[7], direction: Vec3::zeros(), wall: 0.0 };
+        let bodies = Bodies { inverse_mass: row.inverse_mass(), direction: Vec3::zeros(), wall: 0.0 };
         let push = patch.push(&bodies, |k| patch.shares(k)[0]);
         patch.numbers(slot - from, &push, &bodies, patch.shares(slot - from))
     }
@@ -254,7 +254,7 @@ pub unsafe fn particle<const ROTATES: bool>(t: &DeviceTables, step: u32, k: usiz
         let row: &mut Row = &mut *t.particles.rows.at(k);
         let sums = WrenchSlices { forces: &forces, torques: if t.torques != 0 { &torques } else { &[] } };
         let sums = WrenchSums { first: 0, layout: t.layout(), sums };
-        let sum: Sum<Each> = sums.sum::<f64, Each, ROTATES>(0, row[3]);
+        let sum: Sum<Each> = sums.sum::<f64, Each, ROTATES>(0, row.radius());
         let mover = Mover::<Each>::new(&t.drive);
         let found = mover.advance(row, &mut *t.particles.acceleration.at(k), &*t.particles.home.at(k), &sum);
         if ROTATES {

@@ -98,7 +98,7 @@ fn entries(model: &Model, state: &State, lists: &NeighbourLists, s: &Segment) ->
         }
         let (row, partner) = (&particles.rows[i as usize], lists.partner_row(particles, s, slot));
         let way = ahead * (row.velocity() - partner.velocity()).norm();
-        let reach = row[3] + partner[3] + way;
+        let reach = row.radius() + partner.radius() + way;
         if !((row.position() - partner.position()).norm_squared() < reach * reach) {
             continue;
         }
@@ -110,7 +110,7 @@ fn entries(model: &Model, state: &State, lists: &NeighbourLists, s: &Segment) ->
         let shared = if s.with.is_wall() { lists.step.patch[at] } else { 1.0 };
         let arm_j = if wall.is_some() { Vec3::zeros() } else { clumps.arm(j as usize) };
         let (mut bodies, mut arms, mut sign) = ((number(i), other), [clumps.arm(i as usize), arm_j], 1.0);
-        let mut inverse_masses = [row[7], partner[7]];
+        let mut inverse_masses = [row.inverse_mass(), partner.inverse_mass()];
         // The clump comes first; of two the one with the lower number.
         if bodies.1 < bodies.0 {
             (bodies, sign) = ((bodies.1, bodies.0), -1.0);

@@ -56,7 +56,7 @@ impl TileSlice<'_> {
         let points: &[Row] = &self.rows[rows..rows + s.len];
         let (direction, mass) =
             wall.mount.as_ref().map_or((Vec3::zeros(), f64::INFINITY), |m| (m.direction, m.mass));
-        let bodies = |row: &Row| Bodies { inverse_mass: row[7], direction, wall: 1.0 / mass };
+        let bodies = |row: &Row| Bodies { inverse_mass: row.inverse_mass(), direction, wall: 1.0 / mass };
         if wall.mount.is_some() {
             for (k, (&grain, point)) in i.iter().zip(points).enumerate() {
                 let row = &inputs.step.rows[grain as usize];
@@ -117,7 +117,7 @@ fn find_candidates(
         // No less than the way of both.
         let way = longest * (u.abs() + v.abs() + w.abs() + fastest);
         // A little more, so that no rounding leaves out what [`Touch::of`] finds.
-        let far = (radius + point[3] + way + beyond) * (1.0 + 1e-9);
+        let far = (radius + point.radius() + way + beyond) * (1.0 + 1e-9);
         found[count] = k as u32;
         count += usize::from((row.position() - point.position()).norm_squared() < far * far);
     }
@@ -126,9 +126,9 @@ fn find_candidates(
 
 /// Gap up to which a contact lasts, if it was made or is being made [m].
 fn held(row: &Row, other: &Row, law: PatchLaw, made: bool) -> f64 {
-    let reach = row[3] + other[3];
+    let reach = row.radius() + other.radius();
     let touches = (row.position() - other.position()).norm_squared() < reach * reach;
-    if made || touches { law.gap * libm::cbrt(row[3] * other[3] / reach) } else { 0.0 }
+    if made || touches { law.gap * libm::cbrt(row.radius() * other.radius() / reach) } else { 0.0 }
 }
 
 impl NearGrain {

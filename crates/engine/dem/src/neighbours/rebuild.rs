@@ -206,7 +206,7 @@ fn put(model: &Model, state: &mut State, lists: &mut NeighbourLists, slots: Slot
 /// Whether two particles touched where they were listed.
 fn touch(state: &State, &(i, j): &Pair) -> bool {
     let p = &state.particles;
-    let of = |k: u32| (&p.home[k as usize], p.rows[k as usize][3]);
+    let of = |k: u32| (&p.home[k as usize], p.rows[k as usize].radius());
     let [a, b] = [of(i), of(j)];
     touched([a.0, b.0], [a.1, b.1])
 }
@@ -320,7 +320,7 @@ fn note_near(state: &mut State) {
         let (beyond, crossed) = (&zones.beyond[outlet], &zones.crossed[outlet]);
         let stays = |k: usize| {
             let (home, margin) = (p.home[k].vector(), p.home[k][3]);
-            let past = zone.past(&home, p.rows[k][3]);
+            let past = zone.past(&home, p.rows[k].radius());
             !state.clumps.is_member(k)
                 && !crossed.contains(&p.id[k])
                 && (past < -margin || (past > margin && beyond.contains(&p.id[k])))

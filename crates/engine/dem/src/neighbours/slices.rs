@@ -122,10 +122,10 @@ impl NeighbourLists {
     ) -> (Vec3, f64) {
         if segment.with == With::Particles {
             let j = self.slots.partner[slot] as usize;
-            return (position(j), particles.rows[j][3]);
+            return (position(j), particles.rows[j].radius());
         }
         let row = self.partner_row(particles, segment, slot);
-        (row.position(), row[3])
+        (row.position(), row.radius())
     }
 
     /// The row of the second of a contact: a particle, its image, or the contact point of a wall.

@@ -31,7 +31,7 @@ pub fn check_overlap(
                 continue;
             }
             let (other, radius) = lists.partner(&state.particles, segment, at, position);
-            let (here, mine) = (position(i), state.particles.rows[i][3]);
+            let (here, mine) = (position(i), state.particles.rows[i].radius());
             let overlap = mine + radius - (here - other).norm();
             let share = overlap / if radius == 0.0 { mine } else { mine.min(radius) };
             if share > limit && worst.as_ref().is_none_or(|w| share > w.0) {
@@ -91,9 +91,9 @@ fn contact(
     let normal = apart.try_normalize(0.0)?;
     Some(DeepContact {
         between: model.kinds[segment.kind].between,
-        radii: [row[3], other[3]],
-        inverse_mass: row[7] + other[7],
-        overlap: row[3] + other[3] - apart.norm(),
+        radii: [row.radius(), other.radius()],
+        inverse_mass: row.inverse_mass() + other.inverse_mass(),
+        overlap: row.radius() + other.radius() - apart.norm(),
         approach: (other.velocity() - row.velocity()).dot(&normal),
     })
 }
@@ -117,12 +117,13 @@ const RESTS: f64 = 1e-9;
 /// their places hold far less, and so do those that have come and gone.
 pub fn rest(model: &Model, state: &State) -> f64 {
     let at_rest = |mass: f64, radius: f64| 0.5 * mass * (RESTS * radius / model.dt).powi(2);
-    let heavy = state.particles.rows.iter().filter(|row| row[7] > 0.0);
+    let heavy = state.particles.rows.iter().filter(|row| row.inverse_mass() > 0.0);
     let setup = &model.setup;
     let densities = setup.entry_materials.iter().filter_map(|m| setup.materials.get(usize::from(*m)));
     let densest = densities.map(|m| m.density).fold(0.0, f64::max);
     let entry = mass(setup.largest_entry, densest);
-    heavy.map(|row| at_rest(1.0 / row[7], row[3])).sum::<f64>() + at_rest(entry, setup.largest_entry)
+    heavy.map(|row| at_rest(1.0 / row.inverse_mass(), row.radius())).sum::<f64>()
+        + at_rest(entry, setup.largest_entry)
 }
 
 /// Whether the energy that the step makes is to be checked now.
@@ -155,7 +156,7 @@ pub fn check_motion(model: &Model, state: &State) -> Result<(), Halt> {
         }
         let position = state.particles.position(k);
         let motion = (position - position_before(model, state, k)).norm();
-        let share = motion / row[3];
+        let share = motion / row.radius();
         if !(share <= limit) && worst.as_ref().is_none_or(|w| !(share <= w.0)) && state.zones.is_free(k) {
             let (time, id) = (state.time(), state.particles.id[k]);
             worst = Some((share, Halt::Motion { time, id, position, motion, share, limit }));

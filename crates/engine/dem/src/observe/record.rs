@@ -60,7 +60,7 @@ fn record(
     slot: usize,
 ) -> ContactRecord {
     let (p, i) = (&state.particles, lists.slots.i[slot] as usize);
-    let (centre, mine) = (p.position(i), p.rows[i][3]);
+    let (centre, mine) = (p.position(i), p.rows[i].radius());
     let (other, radius) = lists.partner(p, segment, slot, |k| p.position(k));
     // A mesh that the particle has left since has no point that is nearest to it: the record has the particle's centre.
     let gone = other.x.abs() >= FAR[0][0];

@@ -73,7 +73,7 @@ impl<'a> Snapshot<'a> {
         Particle {
             id: p.id[k],
             material: p.material[k],
-            radius: p.rows[k][3],
+            radius: p.rows[k].radius(),
             position: p.position(k),
             velocity,
             spin,

@@ -16,7 +16,7 @@ pub fn ratio(model: &Model, state: &State, lists: &NeighbourLists) -> Option<f64
     let (mut unbalanced, mut bodies) = (0.0, 0u64);
     for k in (0..p.len()).filter(|&k| state.zones.is_free(k) && !state.clumps.is_member(k) && !sleeps(k)) {
         let row = &p.rows[k];
-        let force = sums.on(k, row[3]).0 + body_acceleration(model, state, k) / row[7];
+        let force = sums.on(k, row.radius()).0 + body_acceleration(model, state, k) / row.inverse_mass();
         (unbalanced, bodies) = (unbalanced + force.norm(), bodies + 1);
     }
     for (_, clump) in state.clumps.driven_now(model, state, &sums) {

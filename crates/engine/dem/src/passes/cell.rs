@@ -138,7 +138,7 @@ fn response(model: &Model, state: &State, lists: &NeighbourLists, rates: &Vec3) 
         for slot in segment.contacts() {
             let k = lists.slots.i[slot] as usize;
             let (other, radius) = lists.partner(p, segment, slot, |k| p.position(k));
-            let (apart, mine) = (p.position(k) - other, p.rows[k][3]);
+            let (apart, mine) = (p.position(k) - other, p.rows[k].radius());
             let overlap = mine + radius - apart.norm();
             if overlap <= 0.0 {
                 continue;

@@ -36,7 +36,7 @@ pub fn body_acceleration(model: &Model, state: &State, k: usize) -> Vec3 {
 /// What the fluid takes from particle `k` [W].
 pub fn drag_power(model: &Model, state: &State, k: usize) -> f64 {
     let row = &state.particles.rows[k];
-    model.setup.drag.map_or(0.0, |d| -d.slowing(row).dot(&row.velocity()) / row[7])
+    model.setup.drag.map_or(0.0, |d| -d.slowing(row).dot(&row.velocity()) / row.inverse_mass())
 }
 
 /// After a move: what the fluid adds to it. Returns whether a particle has left its margin.
@@ -69,7 +69,7 @@ pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bo
                 }
                 let margin = (home[k][3] - ahead * row.velocity().norm()).max(0.0);
                 out |= away > margin * margin;
-                taken -= drag.slowing(was).dot(&was.velocity()) * dt / was[7];
+                taken -= drag.slowing(was).dot(&was.velocity()) * dt / was.inverse_mass();
             }
             (taken, out)
         });

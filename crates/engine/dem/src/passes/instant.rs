@@ -24,7 +24,7 @@ pub fn instant(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> Ins
     let row = &p.rows[k];
     let (free, half) = (!state.zones.is_prescribed(k), 0.5 * model.dt);
     let body = body_acceleration(model, state, k);
-    let (force, moment) = sums.on(k, row[3]);
+    let (force, moment) = sums.on(k, row.radius());
     let mut at = Instant {
         velocity: row.velocity(),
         spin: Vec3::zeros(),
@@ -35,9 +35,9 @@ pub fn instant(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> Ins
         Some(factor) if free => all + local_damping::against(factor, &all, &velocity),
         _ => all,
     };
-    let inverse = inverse_inertia(row[3], row[7]);
+    let inverse = inverse_inertia(row.radius(), row.inverse_mass());
     let flow = state.cell(model).flow(&row.position());
-    let driven = against(force * row[7] + body, row.velocity() - flow);
+    let driven = against(force * row.inverse_mass() + body, row.velocity() - flow);
     let turned = if p.rotates() { against(moment * inverse, p.spins[k].vector()) } else { Vec3::zeros() };
     for a in 0..3 {
         at.acceleration[a] = driven[a];

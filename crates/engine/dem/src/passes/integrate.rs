@@ -118,7 +118,7 @@ fn chunk<T: Number, Q: Four, const SPIN: bool>(columns: ParticleSlices, drive: &
     let mut moved = MoveFlags::default();
     for k in 0..rows.len() {
         let row = &mut rows[k];
-        let sum = sums.sum::<T, Q, SPIN>(k, row[3]);
+        let sum = sums.sum::<T, Q, SPIN>(k, row.radius());
         moved = moved.and(mover.advance(row, &mut acceleration[k], &home[k], &sum));
         if SPIN {
             mover.turn(row, &mut spins[k], &mut angular_acceleration[k], &sum);

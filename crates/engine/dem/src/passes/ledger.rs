@@ -93,7 +93,7 @@ pub fn carried_in_the_middle(model: &Model, state: &State, k: usize) -> f64 {
     let (spin, angular_acceleration) = p.rotation(k);
     let (velocity, spin) = (row.velocity() - a * (0.5 * dt), spin - angular_acceleration * (0.5 * dt));
     let position = (p.position(k) + position_before(model, state, k)) * 0.5;
-    let (id, material, radius) = (p.id[k], p.material[k], row[3]);
+    let (id, material, radius) = (p.id[k], p.material[k], row.radius());
     let there = Particle { id, material, radius, position, velocity, spin };
     carried(&there, &model.setup).iter().sum()
 }
@@ -168,12 +168,13 @@ pub fn driven(model: &Model, state: &State, k: usize, a: Vec3, angular_accelerat
     let row = &state.particles.rows[k];
     let density = model.setup.materials[state.particles.material[k] as usize].density;
     let weight = model.setup.gravity * heavy(&model.setup, density);
-    let (mass, inverse_inertia) = (1.0 / row[7], inverse_inertia(row[3], row[7]));
+    let (mass, inverse_inertia) =
+        (1.0 / row.inverse_mass(), inverse_inertia(row.radius(), row.inverse_mass()));
     let moment = angular_acceleration / inverse_inertia;
     let (velocity, spin) = (Vec3::zeros(), Vec3::zeros());
     let forces = [(a - weight) * mass, a * mass];
     let turning = angular_acceleration;
-    DrivenBody { inverse_mass: row[7], forces, moment, turning, velocity, spin }
+    DrivenBody { inverse_mass: row.inverse_mass(), forces, moment, turning, velocity, spin }
 }
 
 impl LedgerSums {

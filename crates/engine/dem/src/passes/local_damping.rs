@@ -37,12 +37,16 @@ pub fn against(factor: f64, all: &Vec3, velocity: &Vec3) -> Vec3 {
 pub fn power(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> f64 {
     let Some(factor) = model.setup.local_damping else { return 0.0 };
     let (p, row) = (&state.particles, &state.particles.rows[k]);
-    let (force, moment) = sums.on(k, row[3]);
+    let (force, moment) = sums.on(k, row.radius());
     let (velocity, flow) = (row.velocity(), state.cell(model).flow(&row.position()));
-    let slowed = against(factor, &(force * row[7] + body_acceleration(model, state, k)), &(velocity - flow));
-    let mut taken = -slowed.dot(&velocity) / row[7];
+    let slowed = against(
+        factor,
+        &(force * row.inverse_mass() + body_acceleration(model, state, k)),
+        &(velocity - flow),
+    );
+    let mut taken = -slowed.dot(&velocity) / row.inverse_mass();
     if p.rotates() {
-        let (spin, inverse) = (p.spins[k].vector(), inverse_inertia(row[3], row[7]));
+        let (spin, inverse) = (p.spins[k].vector(), inverse_inertia(row.radius(), row.inverse_mass()));
         taken -= against(factor, &(moment * inverse), &spin).dot(&spin) / inverse;
     }
     taken
@@ -67,14 +71,14 @@ impl Damped<'_> {
             self.row[4 + axis] += 1.5 * dt * a[axis];
             self.acceleration[axis] += a[axis];
         }
-        let mut taken = -a.dot(&self.was.velocity()) * dt / self.was[7];
+        let mut taken = -a.dot(&self.was.velocity()) * dt / self.was.inverse_mass();
         if let Some((spin, turning, was)) = self.turning {
             let a = against(factor, &turning.vector(), &was.vector());
             for axis in 0..3 {
                 spin[axis] += 1.5 * dt * a[axis];
                 turning[axis] += a[axis];
             }
-            taken -= a.dot(&was.vector()) * dt / inverse_inertia(self.was[3], self.was[7]);
+            taken -= a.dot(&was.vector()) * dt / inverse_inertia(self.was.radius(), self.was.inverse_mass());
         }
         taken
     }

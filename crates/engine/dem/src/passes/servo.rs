@@ -174,7 +174,7 @@ pub fn answer(
     let response: &Response = &model.responses[segment.kind];
     let (k, p) = (lists.slots.i[slot] as usize, &state.particles);
     let (point, radius) = lists.partner(p, segment, slot, |k| p.position(k));
-    let mine = p.rows[k][3];
+    let mine = p.rows[k].radius();
     let overlap = ahead + mine + radius - (position_before(model, state, k) - point).norm();
     response.at(overlap / if radius == 0.0 { mine } else { mine.min(radius) })
 }
@@ -253,8 +253,8 @@ fn is_past_all(model: &Model, state: &State, wall: usize) -> bool {
     let rear = (0..8).map(|k| pose.position(&corner(k)).dot(&servo.direction)).fold(f64::INFINITY, f64::min);
     let present = |k: &usize| !state.zones.is_gone(*k);
     let particles = (0..state.particles.len()).filter(present);
-    let front =
-        particles.map(|k| state.particles.position(k).dot(&servo.direction) + state.particles.rows[k][3]);
+    let front = particles
+        .map(|k| state.particles.position(k).dot(&servo.direction) + state.particles.rows[k].radius());
     let front = front.fold(f64::NEG_INFINITY, f64::max);
     front > f64::NEG_INFINITY && front < rear
 }

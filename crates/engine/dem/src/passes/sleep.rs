@@ -64,9 +64,9 @@ impl SleeperSlices<'_> {
         let angular_acceleration = columns.angular_acceleration.get(k).map_or(0.0, |t| t.vector().norm());
         let a = columns.acceleration[k];
         let here = columns.first + k;
-        let still = row.velocity().norm() + row[3] * spin < self.speed
+        let still = row.velocity().norm() + row.radius() * spin < self.speed
             && a.vector().norm() < self.wake
-            && angular_acceleration * row[3] < self.wake
+            && angular_acceleration * row.radius() < self.wake
             && self.prescribed.get(here) != Some(&true);
         self.quiet[k] = if still { self.quiet[k] + 1 } else { 0 };
         if self.quiet[k] >= self.steps && stirred.touches(here) {
@@ -76,7 +76,7 @@ impl SleeperSlices<'_> {
         if !self.next[k] {
             return;
         }
-        let (force, moment) = columns.sums.as_ref().on(here, row[3]);
+        let (force, moment) = columns.sums.as_ref().on(here, row.radius());
         let lost = lost(k, columns, drive);
         self.held[k] = Row([force[0], force[1], force[2], moment[0], moment[1], moment[2], lost, 0.0]);
         rest(k, columns);
@@ -95,15 +95,16 @@ impl SleeperSlices<'_> {
     fn check_wake(&mut self, k: usize, columns: &mut ParticleSlices, drive: &MoveInputs, stirred: Stirred) {
         let here = columns.first + k;
         let row = columns.rows[k];
-        let (force, moment) = columns.sums.as_ref().on(here, row[3]);
+        let (force, moment) = columns.sums.as_ref().on(here, row.radius());
         let held = self.held[k];
-        let push = (force - Vec3::new(held[0], held[1], held[2])).norm() * row[7];
-        let twist = (moment - Vec3::new(held[3], held[4], held[5])).norm() * row[7] / row[3];
+        let push = (force - Vec3::new(held[0], held[1], held[2])).norm() * row.inverse_mass();
+        let twist =
+            (moment - Vec3::new(held[3], held[4], held[5])).norm() * row.inverse_mass() / row.radius();
         if push > self.wake || twist > self.wake || push.is_nan() || stirred.touches(here) {
             (self.quiet[k], self.next[k]) = (0, false);
-            let inverse_inertia = inverse_inertia(row[3], row[7]);
+            let inverse_inertia = inverse_inertia(row.radius(), row.inverse_mass());
             for a in 0..3 {
-                columns.acceleration[k][a] = force[a] * row[7] + drive.gravity[a];
+                columns.acceleration[k][a] = force[a] * row.inverse_mass() + drive.gravity[a];
                 if let Some(angular_acceleration) = columns.angular_acceleration.get_mut(k) {
                     angular_acceleration[a] = moment[a] * inverse_inertia;
                 }
@@ -120,9 +121,10 @@ fn lost(k: usize, columns: &ParticleSlices, drive: &MoveInputs) -> f64 {
     for axis in 0..3 {
         let (ahead, g) = (row[4 + axis], drive.gravity[axis]);
         let (now, middle) = (ahead - a[axis] * dt, ahead - 0.5 * a[axis] * dt);
-        lost += (0.5 * middle * middle + 0.5 * g * middle * dt - (a[axis] - g) * now * dt) / row[7];
+        lost +=
+            (0.5 * middle * middle + 0.5 * g * middle * dt - (a[axis] - g) * now * dt) / row.inverse_mass();
         if let (Some(w), Some(t)) = (columns.spins.get(k), columns.angular_acceleration.get(k)) {
-            let inertia = INERTIA * row[3] * row[3] / row[7];
+            let inertia = INERTIA * row.radius() * row.radius() / row.inverse_mass();
             let (now, middle) = (w[axis] - t[axis] * dt, w[axis] - 0.5 * t[axis] * dt);
             lost += inertia * (0.5 * middle * middle - t[axis] * now * dt);
         }

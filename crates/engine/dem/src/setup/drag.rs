@@ -60,7 +60,7 @@ impl Drag {
     /// Acceleration by drag alone [m/s²], of a particle's row.
     pub(crate) fn slowing(&self, row: &Row) -> Vec3 {
         let w = row.velocity() - self.velocity;
-        w * -self.rate(row[3], row[7], w.norm())
+        w * -self.rate(row.radius(), row.inverse_mass(), w.norm())
     }
 
     /// Weight of the fluid that particles displace over their own, of one density [–].
@@ -70,7 +70,7 @@ impl Drag {
 
     /// Acceleration by the fluid [m/s²], of a particle's row.
     pub fn acceleration(&self, row: &Row, gravity: &Vec3) -> Vec3 {
-        let lift = self.lift(1.0) * mass(row[3], 1.0) * row[7];
+        let lift = self.lift(1.0) * mass(row.radius(), 1.0) * row.inverse_mass();
         self.slowing(row) - gravity * lift
     }
 

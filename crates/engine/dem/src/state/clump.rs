@@ -125,7 +125,7 @@ impl ClumpMotion {
             }
             a += push;
             torque += (turn * arms[m].vector()).cross(&push);
-            let radius = particles.rows[m][3];
+            let radius = particles.rows[m].radius();
             torque += turning * (INERTIA * radius * radius);
         }
         (a + gravity, torque * self.mass)

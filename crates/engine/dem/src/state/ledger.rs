@@ -116,7 +116,8 @@ pub fn unwrapped_potential(model: &Model, state: &State) -> f64 {
     let inside = |&k: &usize| state.zones.is_free(k) && !state.clumps.is_member(k);
     let of = |k: usize| {
         let density = model.setup.materials[state.particles.material[k] as usize].density;
-        -heavy(&model.setup, density) / state.particles.rows[k][7] * gravity.dot(&state.particles.position(k))
+        -heavy(&model.setup, density) / state.particles.rows[k].inverse_mass()
+            * gravity.dot(&state.particles.position(k))
     };
     (0..state.particles.len()).filter(inside).map(of).sum::<f64>() + state.clumps.potential(&model.setup)
 }

@@ -37,7 +37,7 @@ pub struct Particles {
 pub fn kick_row(row: &mut Row, acceleration: &Row4, by: &Vec3, dt: f64) -> f64 {
     let half_way = row.velocity() - acceleration.vector() * (0.5 * dt);
     (0..3).for_each(|a| row[4 + a] += by[a]);
-    (half_way + by * 0.5).dot(by) / row[7]
+    (half_way + by * 0.5).dot(by) / row.inverse_mass()
 }
 
 /// Takes the rows named by `order`; the last ones, so many as the `tail` is long, stay behind them.
@@ -156,7 +156,7 @@ impl Particles {
 
     /// How far the surface of particle `k` may come from its home [m].
     pub fn reach(&self, k: usize) -> f64 {
-        self.rows[k][3] + self.home[k][3]
+        self.rows[k].radius() + self.home[k][3]
     }
 
     /// Centre of particle `k` [m].
@@ -168,7 +168,7 @@ impl Particles {
     /// |v| + r|ω| of particle `k` [m/s].
     pub fn surface_speed(&self, k: usize) -> f64 {
         let spin = self.spins.get(k).map_or(0.0, |w| w.vector().norm());
-        self.rows[k].velocity().norm() + self.rows[k][3] * spin
+        self.rows[k].velocity().norm() + self.rows[k].radius() * spin
     }
 
     /// Predicted angular velocity [rad/s] of particle `k`, and its angular acceleration of the step before [rad/s²]; 0 without rotation.

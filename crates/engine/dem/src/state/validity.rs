@@ -74,7 +74,9 @@ impl Particles {
         lengths
             && material.iter().all(|&m| (m as usize) < setup.materials.len())
             && ids.windows(2).all(|two| two[0] != two[1])
-            && rows[..n].iter().all(|row| row[3] > 0.0 && row[7] > 0.0 && row[3..].iter().all(is_meant))
+            && rows[..n]
+                .iter()
+                .all(|row| row.radius() > 0.0 && row.inverse_mass() > 0.0 && row[3..].iter().all(is_meant))
             && home.iter().all(|home| home[3] >= 0.0 && is_meant(&home[3]))
             && (0..n).all(|k| is_somewhere(k, &rows[k][..3]) && is_somewhere(k, &home[k][..3]))
     }

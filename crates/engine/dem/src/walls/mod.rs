@@ -272,12 +272,12 @@ impl WallBody {
                     0.0
                 };
                 if self.beside.is_empty() {
-                    seams::count(&mut near, row[3], self.reach + way);
+                    seams::count(&mut near, row.radius(), self.reach + way);
                 } else {
                     let image = |k: usize| (partners[k], local(k));
-                    beside::count(walls, own, &mut near, image, (row[3], self.reach + way));
+                    beside::count(walls, own, &mut near, image, (row.radius(), self.reach + way));
                 }
-                slots.take_over(&near, row[3]);
+                slots.take_over(&near, row.radius());
                 for (k, point) in near.iter().enumerate() {
                     // What is no contact of its own is put out of reach.
                     let far = Vec3::repeat(FAR[1][0]);

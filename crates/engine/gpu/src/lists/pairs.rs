@@ -252,7 +252,7 @@ pub unsafe fn wall_parts(t: &DeviceTables, mode: u32, k: usize) {
                 continue;
             }
             let wall: &DeviceWall = &*t.lists.walls.at(kind.wall as usize);
-            let reach = row[3] + home[3] + wall.margin;
+            let reach = row.radius() + home[3] + wall.margin;
             for (image, shift) in wall.around.near(&position, reach) {
                 let (row, class) = row_of(t, k, kind.class);
                 let put = |part: usize| {

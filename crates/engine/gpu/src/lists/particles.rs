@@ -39,7 +39,7 @@ unsafe fn home_and_reach(t: &DeviceTables, k: usize) -> (Row4, f64) {
     // SAFETY: by contract.
     unsafe {
         let (home, row): (Row4, &Row) = (*t.particles.home.at(k), &*t.particles.rows.at(k));
-        (home, row[3] + home[3])
+        (home, row.radius() + home[3])
     }
 }
 

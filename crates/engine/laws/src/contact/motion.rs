@@ -100,7 +100,7 @@ impl<Q: Four> Mover<Q> {
     /// Turns it on; `row` is that of its centre, before or after its move.
     #[inline(always)]
     pub fn turn(&self, row: &Row, spin: &mut Row4, angular_acceleration: &mut Row4, sum: &Sum<Q>) {
-        let (radius, inverse_mass) = (row[3], row[7]);
+        let (radius, inverse_mass) = (row.radius(), row.inverse_mass());
         let new = sum.moment * Q::all(inverse_inertia(radius, inverse_mass)) * self.three;
         let w = Q::read(spin) + self.half * (new - Q::read(angular_acceleration));
         (w + self.dt * new).write(spin);

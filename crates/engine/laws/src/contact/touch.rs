@@ -51,7 +51,7 @@ impl Touch {
     #[inline(always)]
     pub fn of(law: PatchLaw, [dt, ahead]: [f64; 2], row: &Row, other: &Row, held: f64) -> Touch {
         let apart = row.position() - other.position();
-        let (distance, reach) = (apart.norm_squared().root(), row[3] + other[3]);
+        let (distance, reach) = (apart.norm_squared().root(), row.radius() + other.radius());
         // One division for both.
         let inverse = 1.0 / (distance * reach);
         let normal = apart * (inverse * reach);
@@ -60,7 +60,11 @@ impl Touch {
         let way = if approach < 0.0 { -approach } else { approach } * ahead;
         let mean = |overlap: f64| if way > overlap { 0.5 * (overlap + way) } else { overlap };
         let positive = |overlap: f64| if overlap > 0.0 { overlap } else { 0.0 };
-        let radius = if other[3] > 0.0 { row[3] * other[3] * (inverse * distance) } else { row[3] };
+        let radius = if other.radius() > 0.0 {
+            row.radius() * other.radius() * (inverse * distance)
+        } else {
+            row.radius()
+        };
         let (overlap, before) = (positive(mean(now)), positive(mean(now - approach * dt)));
         let force = law.alone(overlap, radius);
         Touch { overlap, before, force, radius, normal, centre: other.position(), reach }

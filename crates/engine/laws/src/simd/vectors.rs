@@ -16,6 +16,18 @@ impl Row {
     pub fn velocity(&self) -> Vec3 {
         Vec3::new(self[4], self[5], self[6])
     }
+
+    /// Radius [m].
+    #[inline(always)]
+    pub fn radius(&self) -> f64 {
+        self[3]
+    }
+
+    /// 1/m [1/kg].
+    #[inline(always)]
+    pub fn inverse_mass(&self) -> f64 {
+        self[7]
+    }
 }
 
 impl Row4 {

@@ -44,8 +44,8 @@ fn grains(model: &Model, state: &State) -> Vec<Grain> {
     let cell = state.cell(model);
     let stays = |k: &usize| !state.zones.is_gone(*k) && !state.clumps.is_member(*k);
     let grain = |k: usize| {
-        let (id, radius) = (p.id[k], p.rows[k][3]);
-        let end = End { id, radius, mass: 1.0 / p.rows[k][7], turn: state.bonds.turn(k) };
+        let (id, radius) = (p.id[k], p.rows[k].radius());
+        let end = End { id, radius, mass: 1.0 / p.rows[k].inverse_mass(), turn: state.bonds.turn(k) };
         let cluster = cluster_of(&state.clusters, id);
         Grain { row: k as u32, end, material: p.material[k], cluster, position: cell.wrapped(p.position(k)) }
     };

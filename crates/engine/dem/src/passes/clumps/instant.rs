@@ -116,7 +116,7 @@ impl RigidClumps {
         let (mut force, mut torque, mut taken) = (Vec3::zeros(), Vec3::zeros(), 0.0);
         if !f.is_prescribed {
             for &m in &self.members[f.range()] {
-                let radius = state.particles.rows[m as usize][3];
+                let radius = state.particles.rows[m as usize].radius();
                 let (push, moment) = sums.on(m as usize, radius);
                 force += push;
                 torque += (turn * self.arms[m as usize].vector()).cross(&push) + moment;

@@ -232,5 +232,5 @@ fn sphere_back(state: &State, k: usize, back: f64) -> Particle {
     let (spin, angular_acceleration) = p.rotation(k);
     let position = p.position(k) - velocity * back + a * (0.5 * back * back);
     let (velocity, spin) = (velocity - a * back, spin - angular_acceleration * back);
-    Particle { id: p.id[k], material: p.material[k], radius: p.rows[k][3], position, velocity, spin }
+    Particle { id: p.id[k], material: p.material[k], radius: p.rows[k].radius(), position, velocity, spin }
 }

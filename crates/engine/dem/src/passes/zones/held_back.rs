@@ -53,7 +53,8 @@ fn force_of_followers(state: &State, lists: &NeighbourLists, outlet: usize) -> V
 
 /// Counts particle `k`, with all that passes together with it.
 pub fn count(state: &mut State, k: usize, crossing: &Crossing) {
-    let mass = state.clumps.body_of(k).map_or_else(|| 1.0 / state.particles.rows[k][7], |f| f.mass);
+    let mass =
+        state.clumps.body_of(k).map_or_else(|| 1.0 / state.particles.rows[k].inverse_mass(), |f| f.mass);
     let speed = crossing.particle.velocity.dot(&state.zones.outlets[crossing.outlet as usize].plane.normal);
     let of = &mut state.zones.lost.returned.held_back[crossing.outlet as usize];
     of.momentum += mass * speed;

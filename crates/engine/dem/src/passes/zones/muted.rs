@@ -73,7 +73,7 @@ fn moving(model: &Model, state: &State, k: usize, beside: Beside) -> Particle {
     let (a, (spin, angular_acceleration)) = (p.acceleration[k].vector(), p.rotation(k));
     let since = if beside == Beside::After { model.dt } else { 0.0 };
     let (velocity, spin) = (p.rows[k].velocity() - a * since, spin - angular_acceleration * since);
-    let (id, material, radius) = (p.id[k], p.material[k], p.rows[k][3]);
+    let (id, material, radius) = (p.id[k], p.material[k], p.rows[k].radius());
     Particle { id, material, radius, position: p.position(k), velocity, spin }
 }
 

@@ -34,7 +34,7 @@ pub fn make_room(model: &Model, state: &mut State, lists: &NeighbourLists, first
 fn too_deep(model: &Model, state: &State, i: usize, j: usize) -> bool {
     let (a, b) = (&state.particles.rows[i], &state.particles.rows[j]);
     let apart = model.cell().nearest(a.position() - b.position());
-    a[3] + b[3] - apart.norm() > model.setup.guards.overlap * a[3].min(b[3])
+    a.radius() + b.radius() - apart.norm() > model.setup.guards.overlap * a.radius().min(b.radius())
 }
 
 /// Takes out the particle behind a calculation plane that one on its way in has run into; whether that is what stopped the step.

@@ -9,7 +9,7 @@ use geom::Vec3;
 /// of 0; `None` for other members.
 pub fn test_point(state: &State, k: usize) -> Option<(Vec3, f64)> {
     match state.clumps.body_of(k) {
-        None => Some((state.particles.position(k), state.particles.rows[k][3])),
+        None => Some((state.particles.position(k), state.particles.rows[k].radius())),
         Some(clump) => state.clumps.is_first(clump, k).then_some((clump.position, 0.0)),
     }
 }
@@ -17,7 +17,7 @@ pub fn test_point(state: &State, k: usize) -> Option<(Vec3, f64)> {
 /// The same before the last move, for a particle that no zone moved then.
 pub fn test_point_before(model: &Model, state: &State, k: usize) -> (Vec3, f64) {
     match state.clumps.body_of(k) {
-        None => (position_before(model, state, k), state.particles.rows[k][3]),
+        None => (position_before(model, state, k), state.particles.rows[k].radius()),
         Some(clump) => (clump.place_before, 0.0),
     }
 }
