@@ -19,6 +19,7 @@
 use crate::model::bonds::springs::numbers;
 use crate::model::{Halt, Model, With};
 use crate::neighbours::NeighbourLists;
+use crate::passes::moved::has_left;
 use crate::state::clumps::FREE;
 use crate::state::particles::kick_row;
 use crate::state::{CellState, ClumpMotion, Held, ListStatus, RigidClumps, State};
@@ -258,12 +259,6 @@ fn follow(model: &Model, state: &mut State, before: &Cell, now: &Cell) {
     if out {
         state.listing.outdate(ListStatus::MarginLeft);
     }
-}
-
-/// Whether a particle has left its margin, or will before contacts are looked for.
-fn has_left(row: &laws::simd::Row, home: &laws::simd::Row4, ahead: f64) -> bool {
-    let margin = (home[3] - ahead * row.velocity().norm()).max(0.0);
-    (row.position() - home.vector()).norm_squared() > margin * margin
 }
 
 /// Gives particles at t = 0 the velocities of the affine flow.

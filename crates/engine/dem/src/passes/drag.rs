@@ -19,6 +19,7 @@
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
+use crate::passes::moved::{accelerate, has_left};
 use crate::state::State;
 use crate::threads::{FEW, share};
 use geom::Vec3;
@@ -60,15 +61,8 @@ pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bo
                 }
                 let (row, was) = (&mut rows[k], &before[k]);
                 let a = drag.acceleration(was, &gravity);
-                let mut away = 0.0;
-                for axis in 0..3 {
-                    row[axis] += dt * dt * a[axis];
-                    row[4 + axis] += 1.5 * dt * a[axis];
-                    accelerations[k][axis] += a[axis];
-                    away += (row[axis] - home[k][axis]) * (row[axis] - home[k][axis]);
-                }
-                let margin = (home[k][3] - ahead * row.velocity().norm()).max(0.0);
-                out |= away > margin * margin;
+                accelerate(row, &mut accelerations[k], &a, dt);
+                out |= has_left(row, &home[k], ahead);
                 taken -= drag.slowing(was).dot(&was.velocity()) * dt / was.inverse_mass();
             }
             (taken, out)

@@ -12,6 +12,7 @@
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::drag::body_acceleration;
+use crate::passes::moved::{accelerate, has_left};
 use crate::state::State;
 use crate::threads::{FEW, share};
 use geom::Vec3;
@@ -66,11 +67,7 @@ impl Damped<'_> {
     fn damp(self, factor: f64, cell: &Cell, dt: f64) -> f64 {
         let against_flow = self.was.velocity() - cell.flow(&self.was.position());
         let a = against(factor, &self.acceleration.vector(), &against_flow);
-        for axis in 0..3 {
-            self.row[axis] += dt * dt * a[axis];
-            self.row[4 + axis] += 1.5 * dt * a[axis];
-            self.acceleration[axis] += a[axis];
-        }
+        accelerate(self.row, self.acceleration, &a, dt);
         let mut taken = -a.dot(&self.was.velocity()) * dt / self.was.inverse_mass();
         if let Some((spin, turning, was)) = self.turning {
             let a = against(factor, &turning.vector(), &was.vector());
@@ -111,8 +108,7 @@ pub fn apply(model: &Model, state: &mut State, lists: &NeighbourLists) -> bool {
                 };
                 let (row, acceleration, was) = (&mut rows[k], &mut accelerations[k], &lists.before[at]);
                 taken += Damped { row, acceleration, was, turning }.damp(factor, &cell, dt);
-                let margin = (home[k][3] - ahead * rows[k].velocity().norm()).max(0.0);
-                out |= (rows[k].position() - home[k].vector()).norm_squared() > margin * margin;
+                out |= has_left(&rows[k], &home[k], ahead);
             }
             (taken, out)
         });

@@ -13,6 +13,7 @@ pub mod kept;
 pub mod ledger;
 pub mod local_damping;
 pub mod mount;
+pub mod moved;
 #[cfg(test)]
 mod operations;
 pub mod servo;

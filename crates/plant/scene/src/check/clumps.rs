@@ -2,32 +2,17 @@
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Clump, ClumpMass, ClumpMoments, Diameter, SceneKeys};
+use crate::keys::{Clump, ClumpMass, ClumpMoments, Diameter, GrainKeys, SceneKeys};
 
-/// Keys of an entry that makes spheres or clumps.
-pub(super) struct Given<'a> {
-    pub material: &'a str,
-    pub diameter: Diameter,
-    pub clump: &'a Option<String>,
-    pub scale: Option<Diameter>,
-    /// Whether there are `sizes`, and materials in all of them.
-    pub sizes: Option<&'a toml::Value>,
-    pub by: bool,
-}
-
-impl Given<'_> {
-    /// Whether every size names its material.
-    fn has_materials(&self) -> bool {
-        let named = |row: &toml::Value| row.as_array().is_some_and(|cells| cells.len() == 3);
-        self.sizes
-            .and_then(toml::Value::as_array)
-            .is_some_and(|rows| !rows.is_empty() && rows.iter().all(named))
-    }
+/// Whether every size names its material.
+fn has_materials(sizes: Option<&toml::Value>) -> bool {
+    let named = |row: &toml::Value| row.as_array().is_some_and(|cells| cells.len() == 3);
+    sizes.and_then(toml::Value::as_array).is_some_and(|rows| !rows.is_empty() && rows.iter().all(named))
 }
 
 impl Check<'_> {
     /// Spheres have material and diameter, clumps a name and perhaps a scale.
-    pub(super) fn particle(&self, entry: &str, given: &Given) -> Result<()> {
+    pub(super) fn particle(&self, entry: &str, given: &GrainKeys) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
         let diameter = given.diameter != Diameter::default();
         let material = !given.material.is_empty();
@@ -45,15 +30,15 @@ impl Check<'_> {
             return Err(self.wrong(entry, value, why, "add it, or sizes, or the name of a clump"));
         }
         self.one_of(entry, &kinds)?;
-        if material && given.has_materials() {
+        if material && has_materials(given.sizes) {
             let cure = "take it out, or the materials out of sizes";
             return Err(self.wrong(&key("material"), "(given)", "each of sizes names another one", cure));
         }
-        if !material && !given.has_materials() {
+        if !material && !has_materials(given.sizes) {
             let (value, why) = ("(without material)", "material is missing");
             return Err(self.wrong(entry, value, why, "add it, or the name of a clump"));
         }
-        if given.by && given.sizes.is_none() {
+        if given.by.is_some() && given.sizes.is_none() {
             let cure = "take it out, or give sizes";
             return Err(self.wrong(
                 &key("by"),

@@ -1,7 +1,6 @@
 //! Checks of where particles come from and leave: `[[fill]]`, `[[insert]]`, `[[outlet]]`, `[[inlet]]`.
 
 use super::Check;
-use super::clumps::Given;
 use crate::error::Result;
 use crate::keys::{Fill, Insert, SceneKeys};
 
@@ -29,15 +28,7 @@ impl Check<'_> {
 
     fn fill(&self, entry: &str, f: &Fill) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
-        let given = Given {
-            material: &f.material,
-            diameter: f.diameter,
-            clump: &f.clump,
-            scale: f.scale,
-            sizes: f.sizes.as_ref(),
-            by: f.by.is_some(),
-        };
-        self.particle(entry, &given)?;
+        self.particle(entry, &f.grains())?;
         self.amount(entry, f.mass, f.count)?;
         let amounts =
             [("mass", f.mass.is_some()), ("count", f.count.is_some()), ("lattice", f.lattice.is_some())];
@@ -69,15 +60,7 @@ impl Check<'_> {
 
     fn insert(&self, entry: &str, f: &Insert) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
-        let given = Given {
-            material: &f.material,
-            diameter: f.diameter,
-            clump: &f.clump,
-            scale: f.scale,
-            sizes: f.sizes.as_ref(),
-            by: f.by.is_some(),
-        };
-        self.particle(entry, &given)?;
+        self.particle(entry, &f.grains())?;
         self.positive(&key("rate"), f.rate, "kg/s")?;
         self.positive(&key("rate_count"), f.rate_count, "1/s")?;
         self.one_of(entry, &[("rate", f.rate.is_some()), ("rate_count", f.rate_count.is_some())])?;

@@ -117,46 +117,6 @@ fn upright() -> [f64; 4] {
     [1.0, 0.0, 0.0, 0.0]
 }
 
-/// `[[fill]]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Fill {
-    /// Material, unless there is a `clump`.
-    #[serde(default)]
-    pub material: String,
-    /// Name of a `[[clump]]`: clumps instead of spheres.
-    pub clump: Option<String>,
-    /// Sizes of clumps over that of their shape, uniform in the range [–].
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub scale: Option<Diameter>,
-    /// Where; spheres lie wholly inside.
-    #[serde(deserialize_with = "geometry::shape")]
-    pub shape: String,
-    /// Diameters, uniform in the range [m], unless there is a `clump`.
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub diameter: Diameter,
-    /// Sizes with shares instead of `diameter`: see [`crate::plan`].
-    pub sizes: Option<toml::Value>,
-    /// What the shares of `sizes` are of.
-    #[serde(default)]
-    pub by: Option<ShareOf>,
-    /// Mass [kg]; this or `count`.
-    #[serde(default, deserialize_with = "unit::kilograms")]
-    pub mass: Option<f64>,
-    /// Number; this or `mass`.
-    pub count: Option<u64>,
-    /// Velocity at t = 0 [m/s].
-    #[serde(default, deserialize_with = "unit::metres_a_second")]
-    pub velocity: [f64; 3],
-    /// Seed of the random numbers.
-    #[serde(default)]
-    pub seed: u64,
-    /// Cluster of all its spheres; absent: none.
-    pub cluster: Option<u32>,
-    /// Spheres on a lattice, as many as fit, instead of `count` or `mass` at random.
-    pub lattice: Option<Lattice>,
-}
-
 /// Lattices of equal spheres that touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -165,13 +125,6 @@ pub enum Lattice {
     Cubic,
     /// Twelve neighbours: layers of hexagons (hexagonal close packing).
     Hexagonal,
-}
-
-impl Fill {
-    /// The key that says how much: `count` or `mass`.
-    pub(crate) fn amount(&self) -> &'static str {
-        if self.count.is_some() { "count" } else { "mass" }
-    }
 }
 
 /// `[[particles]]`
@@ -203,59 +156,6 @@ impl Particles {
     pub fn length_factor(&self) -> f64 {
         super::wall::length_factor(self.scale, self.units.as_deref())
     }
-}
-
-/// `[[insert]]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Insert {
-    /// Material, unless there is a `clump`.
-    #[serde(default)]
-    pub material: String,
-    /// Name of a `[[clump]]`: clumps instead of spheres.
-    pub clump: Option<String>,
-    /// Sizes of clumps over that of their shape, uniform in the range [–].
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub scale: Option<Diameter>,
-    /// Cross-section, thicker along the velocity than the largest diameter.
-    #[serde(deserialize_with = "geometry::shape")]
-    pub shape: String,
-    /// Diameters, uniform in the range [m].
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub diameter: Diameter,
-    /// Sizes with shares instead of `diameter`: see [`crate::plan`].
-    pub sizes: Option<toml::Value>,
-    /// What the shares of `sizes` are of.
-    #[serde(default)]
-    pub by: Option<ShareOf>,
-    /// Velocity [m/s]; particles keep it until they leave the shape.
-    #[serde(deserialize_with = "unit::metres_a_second")]
-    pub velocity: [f64; 3],
-    /// Rate [kg/s]; this or `rate_count`.
-    #[serde(default, deserialize_with = "unit::kilograms_a_second")]
-    pub rate: Option<f64>,
-    /// Rate [1/s]; this or `rate`.
-    #[serde(default, deserialize_with = "unit::a_second")]
-    pub rate_count: Option<f64>,
-    /// When it opens [s].
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub from: f64,
-    /// When it closes [s]; absent: never.
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub until: Option<f64>,
-    /// Mass after which it closes [kg]; absent: none.
-    #[serde(default, deserialize_with = "unit::kilograms")]
-    pub mass: Option<f64>,
-    /// Number after which it closes; absent: none.
-    pub count: Option<u64>,
-    /// Time after which it opens again [s]: `mass` and `count` are those of each time; absent: never.
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub repeat: Option<f64>,
-    /// How often it opens in all; absent: without end.
-    pub times: Option<u64>,
-    /// Seed of the random numbers.
-    #[serde(default)]
-    pub seed: u64,
 }
 
 /// `[[outlet]]`
@@ -299,31 +199,4 @@ pub struct Inlet {
     pub plant: Option<String>,
     /// Inlet MCAP; absent: given on the command line.
     pub source: Option<String>,
-}
-
-impl Fill {
-    /// Names of the materials of its spheres, and the file of its sizes.
-    pub fn grains(&self) -> (Vec<String>, Option<String>) {
-        grains(&self.material, &self.sizes)
-    }
-}
-
-impl Insert {
-    /// When it closes for the first time [s]: what repeats is open for a period at most.
-    pub fn ends(&self) -> Option<f64> {
-        self.until.or(self.repeat.map(|period| self.from + period))
-    }
-
-    /// Names of the materials of its spheres, and the file of its sizes.
-    pub fn grains(&self) -> (Vec<String>, Option<String>) {
-        grains(&self.material, &self.sizes)
-    }
-}
-
-fn grains(material: &str, sizes: &Option<toml::Value>) -> (Vec<String>, Option<String>) {
-    let rows = sizes.as_ref().and_then(toml::Value::as_array).into_iter().flatten();
-    let named = rows.filter_map(|row| Some(row.as_array()?.get(2)?.as_str()?.to_owned()));
-    let own = (!material.is_empty()).then(|| material.to_owned());
-    let file = sizes.as_ref().and_then(|value| value.as_str().or_else(|| value.get("file")?.as_str()));
-    (own.into_iter().chain(named).collect(), file.map(str::to_owned))
 }

@@ -11,7 +11,7 @@ use super::grading::{Grading, Grain};
 use super::lattice;
 use super::packing::{Packing, Radii, bounds};
 use super::random::{diameter, generator};
-use super::sizes::GrainKeys;
+use super::sizes::EntryGrains;
 use crate::error::Result;
 use crate::keys::{Diameter, Fill, Lattice};
 use dem::setup::Particle;
@@ -145,15 +145,8 @@ fn radii(grains: &[Grain]) -> Vec<f64> {
 
 impl Fill {
     /// What it says about its grains.
-    pub(super) fn sized(&self, index: usize) -> GrainKeys<'_> {
-        let Fill { material, diameter, sizes, by, .. } = self;
-        GrainKeys {
-            entry: format!("fill.{index}"),
-            material,
-            diameter: *diameter,
-            sizes,
-            by: by.unwrap_or_default(),
-        }
+    pub(super) fn sized(&self, index: usize) -> EntryGrains<'_> {
+        EntryGrains { entry: format!("fill.{index}"), keys: self.grains() }
     }
 
     /// Whether so many are enough, or so much mass with half of the next.

@@ -4,7 +4,7 @@ use super::builder::PlanBuilder;
 use super::feed::{Feed, Inserted, InsertedClump};
 use super::grading::Grading;
 use super::insertion::Insertion;
-use super::sizes::GrainKeys;
+use super::sizes::EntryGrains;
 use crate::error::Result;
 use crate::keys::{Diameter, Insert};
 use dem::setup::{ClumpScales, WallShape};
@@ -114,14 +114,7 @@ impl PlanBuilder<'_> {
 
 impl Insert {
     /// What it says about its grains.
-    pub(super) fn sized(&self, index: usize) -> GrainKeys<'_> {
-        let Insert { material, diameter, sizes, by, .. } = self;
-        GrainKeys {
-            entry: format!("insert.{index}"),
-            material,
-            diameter: *diameter,
-            sizes,
-            by: by.unwrap_or_default(),
-        }
+    pub(super) fn sized(&self, index: usize) -> EntryGrains<'_> {
+        EntryGrains { entry: format!("insert.{index}"), keys: self.grains() }
     }
 }

@@ -12,7 +12,7 @@ use super::builder::{GrainMaterial, PlanBuilder};
 use super::grading::{Class, Grading, Spread};
 use crate::error::{Result, SceneError};
 use crate::input::table_of;
-use crate::keys::{Diameter, ShareOf};
+use crate::keys::{Diameter, GrainKeys, ShareOf};
 use geom::{Shown, units};
 use toml::{Table, Value};
 
@@ -31,14 +31,10 @@ struct Part {
     material: Option<String>,
 }
 
-/// What an entry says about its grains.
-pub(super) struct GrainKeys<'a> {
-    /// `fill.0`
+/// The grains of an entry, by the name of the entry: `fill.0`.
+pub(super) struct EntryGrains<'a> {
     pub entry: String,
-    pub material: &'a str,
-    pub diameter: Diameter,
-    pub sizes: &'a Option<Value>,
-    pub by: ShareOf,
+    pub keys: GrainKeys<'a>,
 }
 
 impl PlanBuilder<'_> {
@@ -46,37 +42,42 @@ impl PlanBuilder<'_> {
     ///
     /// # Errors
     /// Sizes or shares that are no numbers above 0, a material that is missing or has no density.
-    pub(super) fn grading(&self, grains: &GrainKeys) -> Result<Grading> {
-        let Some(value) = grains.sizes else {
-            let GrainMaterial { index, density } = self.grain(&grains.key("material"), grains.material)?;
-            return Ok(Grading::uniform(grains.diameter, index, density));
+    pub(super) fn grading(&self, grains: &EntryGrains) -> Result<Grading> {
+        let Some(value) = grains.keys.sizes else {
+            let GrainMaterial { index, density } =
+                self.grain(&grains.key("material"), grains.keys.material)?;
+            return Ok(Grading::uniform(grains.keys.diameter, index, density));
         };
         let parts = grains.parts(self, value)?;
         let class = |part: &Part| {
             let (key, name) = match &part.material {
                 Some(name) => (grains.key("sizes"), name.as_str()),
-                None => (grains.key("material"), grains.material),
+                None => (grains.key("material"), grains.keys.material),
             };
             let GrainMaterial { index: material, density } = self.grain(&key, name)?;
-            let spread = match (part.of_curve, grains.by) {
+            let spread = match (part.of_curve, grains.by()) {
                 (false, _) => Spread::Uniform,
                 (true, ShareOf::Mass) => Spread::Mass,
                 (true, ShareOf::Number) => Spread::Number,
             };
             Ok(Class { range: part.range, spread, share: part.share, material, density })
         };
-        Ok(Grading::new(parts.iter().map(class).collect::<Result<_>>()?, grains.by))
+        Ok(Grading::new(parts.iter().map(class).collect::<Result<_>>()?, grains.by()))
     }
 }
 
-impl GrainKeys<'_> {
+impl EntryGrains<'_> {
     fn key(&self, key: &str) -> String {
         format!("{}.{key}", self.entry)
     }
 
+    fn by(&self) -> ShareOf {
+        self.keys.by.unwrap_or_default()
+    }
+
     /// The largest diameter [m], for stages that are cut before anything is planned.
     pub(super) fn largest(&self, plan: &PlanBuilder) -> Result<f64> {
-        let Some(value) = self.sizes else { return Ok(self.diameter.high) };
+        let Some(value) = self.keys.sizes else { return Ok(self.keys.diameter.high) };
         Ok(self.parts(plan, value)?.iter().map(|p| p.range.high).fold(0.0, f64::max))
     }
 

@@ -53,8 +53,8 @@ impl Cutting<'_> {
     /// Where particles come from; of an inlet its plane, and the mark that it has itself.
     fn mark_grains(&self, all: &Table, kept: &mut Kept) -> Result<()> {
         let m = &self.scene.keys;
-        kept.grains.extend(m.fill.iter().flat_map(|f| f.grains().0));
-        kept.grains.extend(m.insert.iter().flat_map(|f| f.grains().0));
+        kept.grains.extend(m.fill.iter().flat_map(|f| f.grains().names().0));
+        kept.grains.extend(m.insert.iter().flat_map(|f| f.grains().names().0));
         self.mark_clumps(all, kept)?;
         let mut files = entries(all, "particles");
         for (entry, table) in m.particles.iter().zip(&mut files) {
