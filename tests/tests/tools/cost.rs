@@ -15,7 +15,7 @@ const SET_UP: [&str; 6] = [
     "effects/registry.rs",
     "effects/law.rs",
     "effects/describe.rs",
-    "effects/told.rs",
+    "effects/messages.rs",
     "effects/friction.rs",
     "effects/hooke_direct.rs",
 ];

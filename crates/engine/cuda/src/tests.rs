@@ -11,7 +11,7 @@ const HEAD: &str = "// SHA-256 of the sources: ";
 
 /// Files that no GPU runs anything of.
 const NOT_THERE: [&str; 8] =
-    ["told", "table", "contact_history", "registry", "shown", "aligned", "x86", "x86_single"];
+    ["messages", "table", "contact_history", "registry", "shown", "aligned", "x86", "x86_single"];
 
 /// The sources that the program is made of, in order.
 fn sources() -> Vec<PathBuf> {

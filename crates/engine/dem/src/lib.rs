@@ -36,7 +36,7 @@ mod walls;
 pub use laws::{effects, simd};
 pub use model::bonds::find::bonds_at_start;
 pub use model::bonds::limit::entries as bonds_of;
-pub use model::bonds::now::bond_now;
+pub use model::bonds::one_bond::bond_now;
 pub use model::in_range::magnitudes;
 pub use model::limit::critical_step;
 pub use model::servo::face_distance;

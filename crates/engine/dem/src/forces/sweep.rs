@@ -12,7 +12,7 @@ use crate::neighbours::poses::pose_in_box;
 use crate::neighbours::{Computed, NeighbourLists, RestingTile, Slots, TileSlice};
 use crate::passes::integrate::ParticleSlices;
 use crate::passes::sleep::advance_awake;
-use crate::passes::stirred::{Movers, Stirred};
+use crate::passes::waking::{Movers, Stirred};
 use crate::state::{Bonds, Forces, Particles, Sleepers, State};
 use crate::threads::{FEW, share};
 use geom::motion::Pose;

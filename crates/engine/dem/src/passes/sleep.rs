@@ -3,7 +3,7 @@
 //! A particle falls asleep when, for a time, |v| + r|ω| has been below a speed and its residual acceleration |F/m + g| and r|M|/I below a
 //! share of g. Its velocity is then zero, and the force on it is kept. It wakes when the force on it differs from that
 //! by more than the share of its weight, or the moment by the share of weight × radius. What touches a wall or a particle that moves
-//! neither falls asleep nor sleeps on ([`crate::passes::stirred`]). Loads between two sleepers, or of a sleeper on a
+//! neither falls asleep nor sleeps on ([`crate::passes::waking`]). Loads between two sleepers, or of a sleeper on a
 //! wall at rest, are those of the step in which they fell asleep: whole blocks of them are passed over,
 //! and their sum is kept for each tile ([`RestingTile`]) until a particle in or beside it falls asleep or wakes.
 //!
@@ -12,7 +12,7 @@
 use crate::model::Model;
 use crate::neighbours::RestingTile;
 use crate::passes::integrate::{ParticleSlices, advance};
-use crate::passes::stirred::Stirred;
+use crate::passes::waking::Stirred;
 use crate::state::SleeperSlices;
 use geom::Vec3;
 use geom::sphere::INERTIA;

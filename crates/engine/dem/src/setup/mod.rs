@@ -8,7 +8,7 @@ pub mod clump_shape;
 pub mod clumps;
 pub mod drag;
 
-mod kept;
+mod earlier_contacts;
 mod mount;
 mod servo;
 mod strain;
@@ -19,7 +19,7 @@ pub use crate::setup::bond::{
 };
 pub use crate::setup::clump_shape::ClumpShape;
 pub use crate::setup::drag::{Drag, DragLaw};
-pub use kept::{KeptContact, KeptPartner};
+pub use earlier_contacts::{KeptContact, KeptPartner};
 pub use laws::effects::{ContactHistory, ContactLaw, Material};
 pub use laws::simd::number::Precision;
 pub use mount::Mount;

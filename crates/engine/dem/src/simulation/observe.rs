@@ -9,7 +9,7 @@ use crate::observe::{guards, record, snapshot, unbalanced};
 use crate::passes::cell::CellReport;
 use crate::passes::clumps::instant::ClumpState;
 use crate::passes::servo::{ServoReport, WallForce};
-use crate::passes::{bonds, cell, kept, servo};
+use crate::passes::{bonds, cell, earlier_contacts, servo};
 use crate::setup::{KeptContact, Particle};
 use crate::state::{BondState, Crack, Energy, Held, Sleepers};
 use geom::Vec3;
@@ -58,7 +58,7 @@ impl Simulation {
 
     /// Histories of all contacts that have one, to start another simulation from its particles ([`crate::setup::Setup::kept`]).
     pub fn contact_histories(&self) -> impl Iterator<Item = KeptContact> + '_ {
-        kept::histories(&self.model, &self.state, &self.lists)
+        earlier_contacts::histories(&self.model, &self.state, &self.lists)
     }
 
     /// Wall spheres of a wall, as they are now: centre, radius [m], in the order they were given.

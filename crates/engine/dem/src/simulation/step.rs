@@ -8,7 +8,9 @@ use crate::forces::sweep;
 use crate::model::{Halt, Model};
 use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
-use crate::passes::{bonds, cell, clumps, drag, instant, kept, ledger, local_damping, mount, servo, zones};
+use crate::passes::{
+    bonds, cell, clumps, drag, earlier_contacts, instant, ledger, local_damping, mount, servo, zones,
+};
 use crate::setup::KeptContact;
 use crate::state::{Forces, ListStatus, State};
 use std::ops::Range;
@@ -61,7 +63,7 @@ impl Simulation {
     pub(super) fn restore(&mut self, kept: &[KeptContact]) {
         let Simulation { model, state, lists, .. } = self;
         rebuild::rebuild(model, state, lists);
-        kept::restore(model, state, lists, kept);
+        earlier_contacts::restore(model, state, lists, kept);
     }
 
     /// Brings lists and forces to this instant, as observing anything does.

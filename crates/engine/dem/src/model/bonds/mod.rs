@@ -8,7 +8,7 @@ pub mod kinds;
 pub mod law;
 pub mod limit;
 mod motions;
-pub mod now;
+pub mod one_bond;
 pub mod springs;
 mod strength;
 

@@ -12,7 +12,7 @@ use crate::neighbours::NeighbourLists;
 use crate::passes::ledger::carried_in_the_middle;
 use crate::passes::touching::touching;
 use crate::passes::zones::held_back;
-use crate::passes::zones::muted::take_along;
+use crate::passes::zones::idle_contacts::take_along;
 use crate::passes::zones::removed::take_out;
 use crate::passes::zones::travel::follow_motion;
 use crate::passes::zones::whole::{rows_with, test_point, test_point_before};

@@ -5,7 +5,7 @@
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
-use crate::passes::zones::muted::{force_at, force_of_passive};
+use crate::passes::zones::idle_contacts::{force_at, force_of_passive};
 use crate::passes::zones::whole::rows_with;
 use crate::setup::Crossing;
 use crate::state::{Direction, State};

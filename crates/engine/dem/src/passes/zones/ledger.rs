@@ -2,7 +2,7 @@
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
-use crate::passes::zones::muted::power_of_passive;
+use crate::passes::zones::idle_contacts::power_of_passive;
 use crate::setup::Particle;
 use crate::state::{Direction, State};
 

@@ -4,7 +4,7 @@ use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::touching::position_before;
 use crate::passes::zones::history::restore_history;
-use crate::passes::zones::muted::held;
+use crate::passes::zones::idle_contacts::held;
 use crate::passes::zones::whole::test_point;
 use crate::setup::Particle;
 use crate::state::bonds::row_of;
