@@ -15,8 +15,8 @@ pub struct Package {
 
 struct File {
     code: String,
-    /// What its `pub use` hand on: the name here, and the path that it stands for.
-    handed_on: Vec<(String, Name)>,
+    /// What its `pub use` hand on: the name here, and the path that it stands for; none where that is of another package.
+    handed_on: Vec<(String, Option<Name>)>,
 }
 
 impl Package {
@@ -41,9 +41,7 @@ impl Package {
             let mut handed_on = Vec::new();
             for path in paths(&package.files[&name].code).into_iter().filter(|path| path.is_handed_on) {
                 let to = package.absolute(&name, &path.words);
-                if let Some(to) = to {
-                    handed_on.push((path.called, to));
-                }
+                handed_on.push((path.called, to));
             }
             package.files.get_mut(&name).expect("it is there").handed_on = handed_on;
         }
@@ -73,9 +71,9 @@ impl Package {
         let module =
             (0..=name.len()).rev().map(|n| &name[..n]).find(|part| self.files.contains_key(*part))?;
         let Some(item) = name.get(module.len()) else { return Some(module.to_vec()) };
-        let is_it = |(called, _): &&(String, Name)| called == item;
+        let is_it = |(called, _): &&(String, Option<Name>)| called == item;
         match self.files[module].handed_on.iter().find(is_it) {
-            Some((_, to)) if depth < 8 => self.home(to, depth + 1),
+            Some((_, to)) if depth < 8 => self.home(to.as_deref()?, depth + 1),
             _ => Some(module.to_vec()),
         }
     }

@@ -43,7 +43,7 @@ pub(crate) fn sample_of(
         ),
     };
     match settings.amount {
-        Amount::Spacing(spacing) => Ok(Sample::of(throw(&Cells::new(points, spacing), spacing), spacing, 1)),
+        Amount::Spacing(spacing) => Ok(throw(&Cells::new(points, spacing), spacing).into_sample(spacing, 1)),
         Amount::Count(count) => by_count(points, forced, count, settings.method != Method::Grid, throw),
         Amount::Density(low, high) => Ok(by_density(points, low, high, throw)),
     }
@@ -72,7 +72,7 @@ fn by_count(
         if spacing > cells.width || spacing < 0.5 * cells.width {
             cells = Cells::new(points, 1.1 * spacing);
         }
-        let sample = Sample::of(throw(&cells, spacing), spacing, tries);
+        let sample = throw(&cells, spacing).into_sample(spacing, tries);
         let found = sample.kept.len();
         let (x, y) = (spacing.ln(), (found as f64).ln() - goal);
         tried.add(sample, count);
@@ -199,7 +199,7 @@ fn by_density(points: &[Vec3], low: f64, high: f64, throw: impl Fn(&Cells, f64) 
     let mut spacing = (PACKING / goal).sqrt();
     let mut tries = 1;
     loop {
-        let sample = Sample::of(throw(&Cells::new(points, spacing), spacing), spacing, tries);
+        let sample = throw(&Cells::new(points, spacing), spacing).into_sample(spacing, tries);
         let chosen: Vec<Vec3> = sample.kept.iter().map(|&i| points[i as usize]).collect();
         let density = median_density(&chosen, spacing);
         if (low..=high).contains(&density) || tries == 5 {

@@ -4,10 +4,10 @@
 //! their own sheet covers are thrown again, in random order, each against its own sheet. A cloud that is one sheet
 //! everywhere keeps the sample of the first pass, bit for bit.
 
-use crate::Distance;
 use crate::cells::Cells;
 use crate::poisson::chance;
 use crate::sheets::others;
+use crate::{Distance, Sample};
 use rayon::prelude::*;
 
 /// A sample, and how many of its points are nearer than the spacing to one on another sheet.
@@ -17,6 +17,13 @@ pub(crate) struct Thrown {
     pub kept: Vec<u32>,
     /// Points that the second pass added.
     pub beside: usize,
+}
+
+impl Thrown {
+    /// The sample that it is, found at this spacing [m] after so many tries.
+    pub fn into_sample(self, spacing: f64, tries: usize) -> Sample {
+        Sample { kept: self.kept, spacing, tries, beside: self.beside }
+    }
 }
 
 /// Completes a sample `kept` (indices) of the given `spacing` [m], at most the cell width.

@@ -7,6 +7,7 @@ mod crush;
 mod direct_shear;
 mod drum;
 mod heap;
+mod list;
 mod oedometer;
 mod plates;
 mod repose;
@@ -14,6 +15,8 @@ mod text;
 mod triaxial;
 mod triaxial_periodic;
 mod uniaxial;
+
+pub use list::{ALL, find};
 
 use crate::composing::compose::number;
 use crate::error::{LabError, Result};
@@ -24,19 +27,6 @@ use crate::series::{Curve, Series, residual, smoothed};
 use geom::Vec3;
 use std::collections::BTreeMap;
 use text::{around, cylinder, damping, output, plane, pressing, rectangle, servo, translate, triangle, wall};
-
-/// All tests.
-pub const ALL: [&dyn Recipe; 9] = [
-    &direct_shear::DirectShear,
-    &uniaxial::Uniaxial,
-    &triaxial::Triaxial,
-    &triaxial_periodic::TriaxialPeriodic,
-    &oedometer::Oedometer,
-    &repose::Repose,
-    &heap::Heap,
-    &drum::Drum,
-    &crush::Crush,
-];
 
 /// What the stresses of a test are for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -225,11 +215,6 @@ pub enum Envelope {
     Plane,
     /// q/2 = c cos φ + (σ1 + σ3)/2 sin φ, of the tops of Mohr's circles.
     Circles,
-}
-
-/// The test of a name.
-pub fn find(name: &str) -> Option<&'static dyn Recipe> {
-    ALL.into_iter().find(|recipe| recipe.name() == name)
 }
 
 /// Rows of a curve, where the user does not say.
