@@ -1,5 +1,7 @@
 //! Geometry for all other crates: vectors, the cell grid, shapes, planes, triangle meshes.
 
+#![deny(missing_docs)]
+
 mod boxes;
 pub mod cells;
 pub mod digits;

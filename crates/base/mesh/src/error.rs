@@ -6,7 +6,6 @@ use thiserror::Error;
 
 /// Why bytes are no mesh.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum MeshFileError {
     #[error("nothing to read: the input is empty; did the previous tool fail?")]
     Empty,

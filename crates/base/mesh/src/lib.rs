@@ -26,7 +26,6 @@ use geom::mesh::TriMesh;
 use geom::shape::ShapeError;
 use std::path::{Path, PathBuf};
 
-/// One format.
 struct Format {
     name: &'static str,
     /// Whether these are its first bytes.

@@ -1,5 +1,6 @@
 //! Vectors, poses, cells and numbers in messages, without the standard library: what a GPU knows, too.
 
+#![deny(missing_docs)]
 #![no_std]
 
 extern crate alloc;

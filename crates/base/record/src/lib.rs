@@ -7,6 +7,8 @@
 //! Uses `geom` and `stream` alone. It knows no engine and no scene, so that tools which only read runs (`view`, `measure`, `wall`) need
 //! neither; `scene`, `stages` and `run` translate between these records and the engine's types.
 
+#![deny(missing_docs)]
+
 mod clump;
 pub mod column;
 mod columns;

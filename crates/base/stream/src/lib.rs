@@ -1,5 +1,7 @@
 //! Streams: tables of named columns, PLY and MCAP over files and pipes, exact state, provenance.
 
+#![deny(missing_docs)]
+
 pub mod mcap;
 pub mod number_type;
 pub mod ply;

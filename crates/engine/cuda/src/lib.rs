@@ -34,7 +34,6 @@ pub enum CudaError {
     Driver(usize, String),
 }
 
-/// A GPU.
 pub struct Gpu {
     device: CUdevice,
     context: CUcontext,

@@ -20,6 +20,8 @@
 //! simulation   Simulation { model, state, lists }: new, resume, step, observe, explain
 //! ```
 
+#![deny(missing_docs)]
+
 pub mod device;
 mod forces;
 mod model;

@@ -10,6 +10,7 @@
 //! lists         neighbour lists: cells, pairs, slots
 //! ```
 
+#![deny(missing_docs)]
 #![no_std]
 
 extern crate alloc;

@@ -9,6 +9,7 @@
 //! contact       the contact loop: gather → geometry → effects → scatter; sums in fixed order; the move
 //! ```
 
+#![deny(missing_docs)]
 #![no_std]
 #![cfg_attr(target_arch = "nvptx64", feature(core_intrinsics), expect(internal_features))]
 

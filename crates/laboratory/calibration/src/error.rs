@@ -33,7 +33,6 @@ impl fmt::Display for Location {
 
 /// Why a calibration cannot go on.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum CalibrateError {
     #[error("{0}")]
     Usage(String),

@@ -10,7 +10,6 @@ pub type Result<T> = std::result::Result<T, LabError>;
 
 /// Why a laboratory test failed.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum LabError {
     /// The command line asks for something that cannot be.
     #[error("{0}")]

@@ -6,7 +6,6 @@ use geom::Vec3;
 /// A grain that comes in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arrival {
-    /// Its id.
     pub id: u32,
     /// When it enters the zone [s].
     pub enters: f64,

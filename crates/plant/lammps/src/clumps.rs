@@ -97,7 +97,6 @@ pub fn add_members(setup: &mut Setup) {
 pub struct Numbers(Vec<(u32, u32)>);
 
 impl Numbers {
-    /// Those of a setup.
     pub fn new(setup: &Setup) -> Numbers {
         let size = |b: &Body| setup.clumps.shapes[b.shape as usize].spheres.len() as u32;
         let mut all: Vec<(u32, u32)> = setup.clumps.placed.iter().map(|b| (b.id, size(b))).collect();

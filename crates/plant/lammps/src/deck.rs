@@ -31,13 +31,11 @@ const KEPT: f64 = 20.0;
 /// What a deck is made from.
 #[derive(Clone, Copy)]
 pub struct Source<'a> {
-    /// The scene.
     pub scene: &'a Scene,
     /// Its setup, with all grains that come in.
     pub setup: &'a Setup,
     /// Those that come in.
     pub arrivals: &'a [Arrival],
-    /// Its bonds.
     pub bonds: &'a Bonds,
     /// Which steps are frames.
     pub schedule: &'a Schedule,
@@ -154,7 +152,6 @@ impl Deck {
         Ok(None)
     }
 
-    /// Its bonds.
     pub fn bonds(&self) -> &Bonds {
         &self.bonds
     }

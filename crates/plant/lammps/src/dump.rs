@@ -13,7 +13,6 @@ const LONGEST: u64 = 1 << 20;
 /// A block of rows, such as a frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
-    /// Step.
     pub step: u64,
     columns: usize,
     values: Vec<f64>,
@@ -103,7 +102,6 @@ pub enum Ended {
     Over,
     /// It ends inside a block.
     Torn,
-    /// It is wrong.
     Wrong(String),
 }
 

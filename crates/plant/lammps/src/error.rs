@@ -7,7 +7,6 @@ use thiserror::Error;
 
 /// Why a run on LAMMPS failed.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum LammpsError {
     #[error("LAMMPS cannot run this scene: {}", .0.iter().map(Refusal::to_string).collect::<Vec<_>>().join("; "))]
     Cannot(Vec<Refusal>),
@@ -47,14 +46,12 @@ pub type Result<T, E = LammpsError> = std::result::Result<T, E>;
 pub struct Refusal {
     /// Key or name in the scene.
     pub what: String,
-    /// Why.
     pub why: String,
     /// The nearest that LAMMPS can do, as an instruction.
     pub nearest: String,
 }
 
 impl Refusal {
-    /// A refusal.
     pub fn new(what: impl Into<String>, why: impl Into<String>, nearest: impl Into<String>) -> Refusal {
         Refusal { what: what.into(), why: why.into(), nearest: nearest.into() }
     }

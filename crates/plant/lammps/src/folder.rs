@@ -28,7 +28,6 @@ const LOOK: Duration = Duration::from_millis(10);
 /// From where LAMMPS goes on.
 #[derive(Debug)]
 pub struct Start {
-    /// The folder.
     pub folder: PathBuf,
     /// The state; none: from the beginning.
     pub state: Option<&'static str>,

@@ -7,7 +7,6 @@ use crate::files::{BODIES, BONDS, DATA, OF_BODIES};
 use record::name::lammps_comment;
 use std::path::Path;
 
-/// Its commands.
 pub fn commands(Source { scene, setup, schedule, arrivals, bonds, .. }: &Source) -> String {
     let edge = |periodic: &Option<(f64, f64)>| if periodic.is_some() { "p" } else { "m" };
     let [x, y, z] = [0, 1, 2].map(|axis| edge(&setup.periodic[axis]));

@@ -30,7 +30,6 @@ const AT_PLANE: usize = 4;
 /// What a scene asks for beside its frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Asked {
-    /// The contacts.
     pub contacts: bool,
     /// Forces on walls.
     pub walls: bool,
@@ -90,7 +89,6 @@ impl Asked {
         format!("id{}", self.fixes.iter().map(of).collect::<String>())
     }
 
-    /// The commands.
     pub fn commands(&self) -> String {
         let mut text = String::new();
         let how = "every v_next first ${first} flush yes format float %.17g";

@@ -47,18 +47,15 @@ pub enum Origin<'a> {
 pub struct Outcome {
     /// Why it was stopped before its end, as its log has it.
     pub stopped: Option<String>,
-    /// What stopped it.
     #[serde(skip)]
     pub stop: Option<StopCause>,
     /// Time reached [s].
     pub time: f64,
     /// Time step [s].
     pub dt: f64,
-    /// Steps.
     pub steps: u64,
     /// Frames written.
     pub frames: u64,
-    /// Particles.
     pub particles: usize,
     /// What the user should know.
     pub warnings: Vec<String>,
@@ -92,7 +89,6 @@ fn alone(setup: &Setup) -> Option<String> {
 
 /// A scene that is ready for LAMMPS.
 pub struct Prepared {
-    /// The deck.
     pub deck: Deck,
     /// Which steps are frames.
     pub schedule: Schedule,

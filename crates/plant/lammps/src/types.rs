@@ -17,7 +17,6 @@ pub enum Kind {
     Wall(usize),
 }
 
-/// An atom type.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AtomType {
     /// What its atoms are.

@@ -6,11 +6,9 @@ use std::fmt;
 /// Date of a release.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Version {
-    /// Year.
     pub year: u16,
     /// Month, 1 to 12.
     pub month: u8,
-    /// Day.
     pub day: u8,
 }
 

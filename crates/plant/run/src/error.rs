@@ -8,7 +8,6 @@ use thiserror::Error;
 
 /// Why a run failed.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum RunError {
     #[error("{0}")]
     Scene(#[from] SceneError),

@@ -20,9 +20,7 @@ fn kind(precision: Precision) -> NumberType {
 
 /// Particles in the order of their rows.
 pub(crate) trait Particles: Sync {
-    /// How many.
     fn count(&self) -> usize;
-    /// One of them.
     fn at(&self, n: usize) -> Particle;
 }
 

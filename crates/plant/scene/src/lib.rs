@@ -10,6 +10,8 @@
 //! the words of scenes and uses none of them. Uses `dem` for the setup's types and `record` for formats of files; knows nothing of time
 //! or of outputs.
 
+#![deny(missing_docs)]
+
 pub mod advice;
 mod check;
 pub mod error;

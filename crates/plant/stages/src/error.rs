@@ -7,7 +7,6 @@ use thiserror::Error;
 
 /// Why a stage failed.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum StageError {
     #[error("{0}")]
     Scene(#[from] SceneError),

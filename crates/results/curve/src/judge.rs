@@ -23,9 +23,7 @@ pub struct Cost {
 pub struct Judged {
     /// The points, as in the grid.
     pub points: Vec<Point>,
-    /// What they cost.
     pub costs: Vec<Cost>,
-    /// Their errors.
     pub errors: Vec<Option<Error>>,
     /// Whether these are shares of the truth; else they are in the unit of the measure.
     pub relative: bool,

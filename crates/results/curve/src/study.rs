@@ -7,7 +7,6 @@ use thiserror::Error;
 /// Phases of the step at which a scene without random numbers runs.
 pub const PHASES: u64 = 8;
 
-/// A study.
 #[derive(Debug, Clone)]
 pub struct Study {
     /// The scene's file; may have blanks `{KEY}`.
@@ -89,7 +88,6 @@ pub enum Wanted {
 
 /// Why a study failed.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum CurveError {
     /// The study asks for something that cannot be.
     #[error("{0}")]

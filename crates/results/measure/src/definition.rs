@@ -29,7 +29,6 @@ pub trait Measure {
 /// A named result, as `cost-curve --measure` takes it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Figure {
-    /// Its name.
     pub name: &'static str,
     /// The value of the summary, or the column, that holds it.
     pub value: &'static str,
@@ -107,7 +106,6 @@ impl Frames {
 pub struct GivenShape {
     /// As given.
     pub text: String,
-    /// The shape.
     pub shape: Shape,
 }
 
@@ -127,7 +125,6 @@ pub enum Argument {
     None,
     /// A plane, or an axis.
     Plane(Plane),
-    /// A shape.
     Shape(GivenShape),
     /// Ids of particles.
     Ids(Vec<u64>),
@@ -150,7 +147,6 @@ pub struct Asked<'a> {
     pub between: (f64, f64),
     /// Looks at the frames before they are measured.
     pub box_of: BoxOf<'a>,
-    /// Up.
     pub up: Option<Vec3>,
     /// Number of sectors or lanes.
     pub sectors: Option<usize>,
@@ -170,7 +166,6 @@ pub struct Asked<'a> {
     pub span: Option<f64>,
     /// Axis of the bins: 0, 1, 2 for x, y, z.
     pub axis: Option<usize>,
-    /// Number of bins.
     pub bins: Option<Bins>,
     /// How the axes of the grid are turned.
     pub turn: Option<Turn>,

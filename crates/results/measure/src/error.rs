@@ -5,7 +5,6 @@ use thiserror::Error;
 
 /// Why something could not be measured.
 #[derive(Debug, Error, PartialEq)]
-#[allow(missing_docs)]
 pub enum MeasureError {
     #[error("run holds no {what}: {cure}")]
     Channel { topic: &'static str, what: &'static str, cure: &'static str },

@@ -70,7 +70,6 @@ pub struct Curve {
     pub name: String,
     /// x and y.
     pub points: Vec<[f64; 2]>,
-    /// How it looks.
     pub look: Look,
 }
 
@@ -83,7 +82,6 @@ pub enum Panel {
         x: String,
         /// Label of y, with unit.
         y: String,
-        /// The curves.
         curves: Vec<Curve>,
     },
     /// Colours over a plane.
@@ -104,7 +102,6 @@ pub enum Panel {
 /// What to draw of a measurement.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Chart {
-    /// Its title.
     pub title: String,
     /// Its parts, from top to bottom.
     pub panels: Vec<Panel>,

@@ -78,7 +78,6 @@ fn within(t: f64, nu: usize) -> f64 {
 /// A robust line y = intercept + slope x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// Slope.
     pub slope: f64,
     /// 95 % interval of the slope.
     pub interval: [f64; 2],

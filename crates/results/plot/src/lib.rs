@@ -16,7 +16,6 @@ pub const COLOURS: [&str; 8] =
 
 /// What drawing refuses.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum PlotError {
     #[error("{}: the name must end in .svg or .png", .0.display())]
     Ending(PathBuf),

@@ -20,7 +20,6 @@ pub enum ViewError {
         name: String,
         /// Row, from 0.
         row: usize,
-        /// The column.
         column: &'static str,
         /// What stands there.
         value: f64,
@@ -64,15 +63,11 @@ pub enum ViewError {
         option: String,
         /// What is missing.
         what: &'static str,
-        /// What to do.
         cure: &'static str,
     },
     /// A message without its columns.
     #[error("{topic}: columns are missing: write the run with dem-run")]
-    Columns {
-        /// The topic.
-        topic: &'static str,
-    },
+    Columns { topic: &'static str },
     /// Columns that do not make a table.
     #[error("cannot make a table of what is shown: {why}")]
     Table {
@@ -82,7 +77,6 @@ pub enum ViewError {
     /// A field that no layer has.
     #[error("{what}: no field '{name}' here: choose one of {}", known.join(", "))]
     NoField {
-        /// What it is for.
         what: &'static str,
         /// The name asked for.
         name: String,
@@ -128,7 +122,6 @@ pub enum ViewError {
     /// A file that a moment of a run was to be kept in.
     #[error("{file}: cannot write")]
     Keep {
-        /// The file.
         file: String,
         /// Why.
         #[source]
@@ -163,7 +156,6 @@ pub enum ViewError {
         "{folder}: exists and would be replaced, but holds '{file}', which {list} does not list: move it elsewhere, or give another name with -o"
     )]
     NotSeries {
-        /// The folder.
         folder: String,
         /// The first file that is not of the series.
         file: String,

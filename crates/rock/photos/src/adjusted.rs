@@ -112,7 +112,6 @@ impl Changes {
         camera.into_iter().chain(rings).chain(self.rings.iter().skip(1).map(|_| ANGLE_DEG)).collect()
     }
 
-    /// The turntable with changes.
     fn table(&self, changes: &[f64]) -> Turntable {
         let mut table = self.start.clone();
         let mut next = changes.iter();

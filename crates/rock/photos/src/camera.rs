@@ -14,7 +14,6 @@ use geom::Vec3;
 use nalgebra::{Matrix3, Matrix3x4};
 use serde::Serialize;
 
-/// A camera.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Camera {
     /// fx, fy, s [px].

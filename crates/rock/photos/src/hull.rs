@@ -27,7 +27,6 @@ pub use region::region;
 /// A photograph for carving: where the stone is on it, and where it was taken from.
 #[derive(Debug, Clone)]
 pub struct View {
-    /// The camera.
     pub camera: Camera,
     /// Signed distance to the edge of the mask.
     pub field: Arc<Field>,
@@ -51,7 +50,6 @@ fn listed(numbers: &[usize]) -> String {
 
 /// Why there is no hull.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum HullError {
     #[error("{0} views are too few: a hull needs at least 3 photographs from different sides")]
     Few(usize),

@@ -41,7 +41,6 @@ pub struct MaskSettings {
     pub close: Option<f64>,
 }
 
-/// A mask.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mask {
     /// Pixels of a row.

@@ -56,7 +56,6 @@ pub struct Photograph {
 
 /// Why bytes are no photograph.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum PhotographError {
     #[error("neither JPEG nor PNG (it begins with {start}): convert the photograph")]
     Unknown { start: String },

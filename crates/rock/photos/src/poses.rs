@@ -11,7 +11,6 @@ use thiserror::Error;
 pub struct Pose {
     /// Name of the photograph, as in the file.
     pub name: String,
-    /// Its camera.
     pub camera: Camera,
     /// Width and height of the photograph that the camera is for, where the file says them [px].
     pub size: Option<[usize; 2]>,
@@ -19,7 +18,6 @@ pub struct Pose {
 
 /// What is wrong with a file of poses.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum PoseError {
     #[error("line {line}: {what}: '{text}'")]
     Line { line: usize, what: String, text: String },

@@ -30,7 +30,6 @@ pub struct Sighting {
     pub camera: Camera,
 }
 
-/// A scale.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TagScale {
     /// What lengths are to be multiplied by [–].
@@ -49,7 +48,6 @@ pub struct TagScale {
 
 /// No tag could be measured.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum TagError {
     #[error(
         "no tag was found: let tags of the family 36h11, of different numbers, lie beside the stone, sharp, with their white margins, and some 30 \

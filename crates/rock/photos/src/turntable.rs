@@ -16,7 +16,6 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Turntable {
-    /// The camera.
     pub camera: TurntableCamera,
     /// Turns of the table.
     pub ring: Vec<Ring>,
@@ -61,7 +60,6 @@ pub struct Ring {
 
 /// What is wrong with a turntable.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum TurntableError {
     #[error("{0}")]
     Text(String),
@@ -82,7 +80,6 @@ pub enum TurntableError {
 pub struct Place {
     /// Number of the photograph in the list of names.
     pub photograph: usize,
-    /// Number of its ring.
     pub ring: usize,
     /// Angle of the table [°].
     pub angle_deg: f64,

@@ -79,7 +79,6 @@ pub struct Changes {
 
 /// Why there is no stone.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum CleanError {
     #[error("{0}")]
     Mesh(#[from] MeshError),
@@ -170,7 +169,6 @@ fn without_hollows(mesh: TriMesh, changes: &mut Changes) -> TriMesh {
     joined(others)
 }
 
-/// Pieces as one mesh.
 fn joined<'a>(pieces: impl IntoIterator<Item = &'a TriMesh>) -> TriMesh {
     let mut all = TriMesh::default();
     for piece in pieces {

@@ -33,7 +33,6 @@ pub enum Method {
 pub struct ClumpSettings {
     /// How spheres are found.
     pub method: Method,
-    /// Number of spheres.
     pub spheres: Option<usize>,
     /// Share of the volume that may stay uncovered [–]; without a number of spheres.
     pub error: Option<f64>,
@@ -71,7 +70,6 @@ pub struct Clump {
 
 /// Why there are no such spheres.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum ClumpError {
     #[error("no sphere of radius {} m or more fits into the stone: lower --min-radius", Shown(*.0))]
     NoSphere(f64),

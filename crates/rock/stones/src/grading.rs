@@ -10,7 +10,6 @@ use geom::Shown;
 use serde::Serialize;
 use thiserror::Error;
 
-/// One class.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Class {
     /// Number in reports and in the column `class`: from 1.
@@ -35,7 +34,6 @@ impl Class {
 
 /// Why text is not a grading, or does not fit a library.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum GradingError {
     #[error("line {line}: '{text}': {why}")]
     Line { line: usize, text: String, why: &'static str },

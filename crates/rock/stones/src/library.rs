@@ -18,7 +18,6 @@ pub struct LibraryStone {
     pub class: Option<u32>,
     /// The mesh.
     pub stone: Stone,
-    /// Its measures.
     pub shape: ShapeMeasures,
     /// Radius of the sphere about the centre of mass that encloses it [m].
     pub reach: f64,
@@ -29,13 +28,11 @@ pub struct LibraryStone {
 /// Stones, in the order of their names.
 #[derive(Debug, Clone)]
 pub struct Library {
-    /// The stones.
     pub stones: Vec<LibraryStone>,
 }
 
 /// Why meshes are not a library.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum LibraryError {
     #[error("the library has no mesh: give a folder of closed meshes (PLY, STL, OBJ)")]
     Empty,

@@ -48,13 +48,11 @@ pub struct PackSettings {
     pub rounds: u64,
     /// Fewest grains of a stone.
     pub least_grains: usize,
-    /// Seed.
     pub seed: u64,
 }
 
 /// Why nothing can be placed.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum PackError {
     #[error("the soil has no grain inside the box: give the soil, or another --within")]
     NoSoil,

@@ -69,7 +69,6 @@ pub struct ShapeMeasures {
 }
 
 impl ShapeMeasures {
-    /// Measures a stone.
     pub fn of(stone: &Stone) -> ShapeMeasures {
         let (volume, area) = (stone.moments.volume, stone.mesh.area());
         // A closed mesh that encloses a volume is not flat.

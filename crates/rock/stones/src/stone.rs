@@ -14,7 +14,6 @@ pub const MOST_FACES: usize = 2_000_000;
 
 /// Why a mesh is not a stone.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum StoneError {
     #[error("{0}; close or orient it with stone-clean or a mesh editor")]
     Body(#[from] BodyError),

@@ -27,18 +27,13 @@ const LEAST: f64 = 0.15;
 /// A stone that variants come from.
 #[derive(Debug, Clone)]
 pub struct Measured {
-    /// Its harmonics.
     pub harmonics: Harmonics,
-    /// Its measures.
     pub shape: ShapeMeasures,
 }
 
-/// A variant.
 #[derive(Debug, Clone)]
 pub struct Variant {
-    /// The stone.
     pub stone: Stone,
-    /// Its measures.
     pub shape: ShapeMeasures,
     /// Numbers of the measured stones between which it lies.
     pub between: [usize; 2],
@@ -63,7 +58,6 @@ pub struct Ranges {
 
 /// Why there are no variants.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum VariantError {
     #[error(
         "variant {number}: none of {TRIES} tries had measures of shape in the range of the measured stones: give more measured stones, or fewer variants"

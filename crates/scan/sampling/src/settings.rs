@@ -46,7 +46,6 @@ pub enum Amount {
 /// What is wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleSettings {
-    /// How many.
     pub amount: Amount,
     /// How they are chosen.
     pub method: Method,
@@ -71,7 +70,6 @@ pub struct Sample {
 
 /// What sampling refuses.
 #[derive(Debug, Error, PartialEq)]
-#[allow(missing_docs)]
 pub enum SampleError {
     #[error("the cloud has no points: nothing to sample; check the previous tool")]
     Empty,

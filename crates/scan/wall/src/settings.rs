@@ -43,7 +43,6 @@ pub enum Placement {
 /// What is wanted.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct WallSettings {
-    /// Radii.
     pub radius: Radius,
     /// Distance that stands for all.
     pub representative: Representative,
@@ -69,7 +68,6 @@ pub struct WallSettings {
 
 /// What a wall refuses.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum WallError {
     #[error(
         "the cloud has {0} points: a wall needs at least 2 at different positions; check the previous tool"

@@ -146,7 +146,6 @@ fn write_page(page: &Path, lab: &Lab, first: &Loading, folder: &Path) -> anyhow:
     }
 }
 
-/// The report.
 pub fn report(lab: &Lab, specimens: &Specimens, summary: &Summary) -> Report {
     let tested = curves(specimens).count();
     let (all, test) = (specimens.list.len(), lab.recipe().name());

@@ -19,7 +19,6 @@ const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// Reports the progress of large fills.
 pub struct Filling(RefCell<Shown>);
 
-/// How it is shown.
 enum Shown {
     /// A bar, once there is news.
     Bar(Option<cli::Progress>),

@@ -30,7 +30,6 @@ pub fn csv(clump: &Clump) -> String {
     "x,y,z,radius\n".to_owned() + &clump.spheres.iter().map(row).collect::<String>()
 }
 
-/// The same as PLY.
 pub fn ply(clump: &Clump) -> anyhow::Result<Vec<u8>> {
     let mut table = Table::with_rows(clump.spheres.len());
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {

@@ -16,7 +16,6 @@ const AT_ONCE: usize = 8;
 pub struct Found {
     /// Photographs that carve.
     pub names: Vec<String>,
-    /// Their views.
     pub views: Vec<View>,
     /// The first of them that shows the stone turned over.
     pub turned_from: usize,

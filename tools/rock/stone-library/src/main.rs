@@ -17,9 +17,7 @@ fn main() -> ExitCode {
 
 /// A stone of the library, and what it is.
 struct Entry {
-    /// The stone.
     pub stone: Stone,
-    /// Its measures.
     pub shape: ShapeMeasures,
     /// `scan` or `variant`.
     pub kind: &'static str,

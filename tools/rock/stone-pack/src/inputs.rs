@@ -13,7 +13,6 @@ const MESHES: [&str; 3] = ["ply", "stl", "obj"];
 
 /// Grains of the soil, as they were read.
 pub struct Grains {
-    /// The particles.
     pub particles: Vec<Particle>,
     /// Radii [m].
     pub radii: Vec<f64>,

@@ -8,7 +8,6 @@ use gpu::tables::DeviceTables;
 use gpu::lists;
 use gpu::threads::{contact, particle};
 
-/// Number of this thread.
 #[inline(always)]
 fn thread() -> usize {
     // SAFETY: registers that every thread has.

@@ -32,7 +32,6 @@ pub(crate) struct Lessons<'a> {
     pub inputs: DMatrix<f64>,
     /// Curves, a row each.
     pub outputs: DMatrix<f64>,
-    /// Data.
     pub data: DVector<f64>,
     /// Covariance of the data.
     pub covariance: DMatrix<f64>,

@@ -25,7 +25,6 @@ const STREAM: u64 = 0x6e_78_74;
 /// What a test would tell.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Next {
-    /// The test.
     pub test: String,
     /// Whether it has data already: this would be one more specimen.
     pub again: bool,

@@ -21,7 +21,6 @@ impl Region {
         Region(vec![[0.0, 1.0]; d])
     }
 
-    /// With these ends.
     #[cfg(test)]
     pub fn of(ends: Vec<[f64; 2]>) -> Region {
         Region(ends)

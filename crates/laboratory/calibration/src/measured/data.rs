@@ -19,7 +19,6 @@ pub struct Point {
     pub x: f64,
     /// Value.
     pub y: f64,
-    /// Its deviation.
     pub deviation: f64,
 }
 
@@ -107,7 +106,6 @@ pub fn binned(curve: &[(f64, f64)], most: usize) -> Vec<Vec<(f64, f64)>> {
     bins
 }
 
-/// The mean of points.
 pub fn mean(points: &[(f64, f64)]) -> (f64, f64) {
     let n = points.len() as f64;
     let sum = points.iter().fold((0.0, 0.0), |sum, p| (sum.0 + p.0, sum.1 + p.1));

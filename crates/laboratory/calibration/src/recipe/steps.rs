@@ -20,10 +20,8 @@ pub struct Part {
     pub until: f64,
 }
 
-/// A step.
 #[derive(Debug, Clone)]
 pub struct Step {
-    /// Its name.
     pub name: String,
     /// Indices of the parameters that are fitted.
     pub fit: Vec<usize>,

@@ -25,7 +25,6 @@ pub struct CalibrationSettings {
 /// A command that prints a curve or a number.
 #[derive(Debug, Clone)]
 pub struct Test {
-    /// Its name.
     pub name: String,
     /// The shell line, with blanks.
     pub command: String,

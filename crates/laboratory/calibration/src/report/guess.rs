@@ -24,7 +24,6 @@ pub enum Moisture {
     Wet,
 }
 
-/// The answers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answers {
     /// Name of the material.

@@ -58,9 +58,7 @@ pub struct Pair {
 /// Sensitivities of a part of a test.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PartSensitivity {
-    /// The step.
     pub step: String,
-    /// The test.
     pub test: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
@@ -75,7 +73,6 @@ pub struct PartSensitivity {
 pub struct StepFit {
     /// Its name.
     pub step: String,
-    /// Its trials.
     pub trials: usize,
     /// Whether it ended early, because more trials would tell nothing.
     pub early: bool,
@@ -89,7 +86,6 @@ pub struct StepFit {
     pub chains: f64,
 }
 
-/// All of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Judged {
     /// Content of the intervals.
@@ -98,9 +94,7 @@ pub struct Judged {
     pub findings: Vec<Finding>,
     /// Pairs that the data do not separate.
     pub pairs: Vec<Pair>,
-    /// Sensitivities.
     pub sensitivities: Vec<PartSensitivity>,
-    /// Fits.
     pub steps: Vec<StepFit>,
     /// Time of all runs [s].
     pub seconds: f64,

@@ -24,7 +24,6 @@ use std::path::PathBuf;
 pub trait Watch: Sync {
     /// A sentence.
     fn tell(&self, words: &str);
-    /// A warning.
     fn warn(&self, words: &str);
     /// So many of so many runs are done, and what is done now.
     fn progress(&self, done: usize, total: usize, now: &str);
@@ -32,7 +31,6 @@ pub trait Watch: Sync {
 
 /// How a calibration is carried out.
 pub struct Session<'a> {
-    /// The recipe.
     pub recipe: &'a Recipe,
     /// Folder of the trials.
     pub dir: PathBuf,
@@ -64,11 +62,9 @@ pub struct StepEnd<'a> {
 
 /// Where a calibration stands.
 pub enum Standing<'a> {
-    /// It is done.
     Done {
         /// All trials.
         tried: Vec<Tried>,
-        /// All steps.
         steps: Vec<StepEnd<'a>>,
     },
     /// These jobs are to be run before it goes on.

@@ -32,7 +32,6 @@ impl Status {
 /// A trial that was made.
 #[derive(Debug, Clone)]
 pub struct Tried {
-    /// The trial.
     pub trial: Trial,
     /// For each test the mean over the seeds, on the points of its data.
     pub outputs: Vec<Option<Vec<f64>>>,

@@ -29,7 +29,6 @@ pub(super) struct Work {
 /// Runs so far.
 #[derive(Default)]
 struct Count {
-    /// Those that are done.
     done: usize,
     /// Those of this process, and how many of them failed.
     own: usize,

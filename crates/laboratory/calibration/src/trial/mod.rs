@@ -39,7 +39,6 @@ pub struct TrialRun {
     pub test: usize,
     /// The file of its job.
     pub file: PathBuf,
-    /// What it does.
     pub job: TrialJob,
 }
 

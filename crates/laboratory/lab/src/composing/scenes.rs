@@ -12,7 +12,6 @@ use toml_edit::value;
 /// Which scene is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Which {
-    /// That of the preparation.
     Preparation,
     /// That of the test, with the specimen as high as it is expected to become.
     Test,

@@ -9,7 +9,6 @@ const RESIDUAL: f64 = 0.2;
 /// A column of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Its name.
     pub name: &'static str,
     /// Its unit; "" for none.
     pub unit: &'static str,
@@ -36,7 +35,6 @@ impl Curve {
         self.columns.iter().find(|c| c.name == name).map_or(&[], |c| &c.values)
     }
 
-    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |c| c.values.len())
     }
@@ -66,7 +64,6 @@ impl Series {
         Ok(Series { names, rows, file: file.to_owned() })
     }
 
-    /// A column.
     pub(crate) fn column(&self, name: &str) -> Result<Vec<f64>> {
         let wrong = || LabError::Content {
             file: self.file.clone(),
@@ -114,7 +111,6 @@ pub(crate) fn reaches(values: &[f64], level: f64) -> Option<(usize, f64)> {
     Some((at, (level - before) / (values[at] - before)))
 }
 
-/// The value there.
 pub(crate) fn at(values: &[f64], (row, share): (usize, f64)) -> f64 {
     values[row - 1] + share * (values[row] - values[row - 1])
 }

@@ -8,7 +8,6 @@ use serde::Serialize;
 /// A value over several seeds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figure {
-    /// Its name.
     pub name: String,
     /// Its unit; "" for none.
     pub unit: String,
@@ -25,7 +24,6 @@ pub struct Figure {
 pub struct Level {
     /// Stress [Pa]; none where the test has none.
     pub stress: Option<f64>,
-    /// Its figures.
     pub figures: Vec<Figure>,
 }
 

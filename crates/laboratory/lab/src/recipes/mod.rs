@@ -91,7 +91,6 @@ pub struct Prepared {
 
 /// What the scenes of one specimen depend on.
 pub struct Context<'a> {
-    /// The sample.
     pub sample: &'a Sample,
     /// What is asked for.
     pub request: &'a Request,
@@ -107,7 +106,6 @@ pub struct Tables(pub(crate) BTreeMap<&'static str, Series>);
 /// A number that a curve comes to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Value {
-    /// Its name.
     pub name: &'static str,
     /// Its unit; "" for none.
     pub unit: &'static str,

@@ -170,7 +170,6 @@ impl Chain<'_> {
         LabError::Content { file: self.file(name), what: format!("is not a report: {why}") }
     }
 
-    /// Measures a run.
     pub(crate) fn measure(&self, run: &str, table: &str, options: &[&str]) -> Result<Series> {
         if !self.file(table).exists() {
             let run = format!("{run}.mcap");

@@ -100,7 +100,6 @@ impl Lab {
         &self.loadings
     }
 
-    /// The sample.
     pub fn sample(&self) -> &Sample {
         &self.sample
     }

@@ -9,7 +9,6 @@ use record::StopCause;
 pub enum SpecimenOutcome {
     /// Its curve and what that comes to.
     Tested {
-        /// The curve.
         curve: Curve,
         /// Values of the curve.
         values: Vec<Value>,

@@ -22,14 +22,12 @@ const APART: f64 = 10.0;
 /// Grains of a trial filling, from which sizes and time step are known.
 const TRIAL: usize = 500;
 
-/// A sample.
 #[derive(Debug, Clone)]
 pub struct Sample {
     /// Its file, for messages.
     pub name: String,
     /// Files that it names are relative to this folder.
     pub folder: PathBuf,
-    /// What its grains are.
     pub grains: Grains,
     /// Files that it names.
     pub files: Vec<PathBuf>,

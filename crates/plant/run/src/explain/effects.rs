@@ -13,7 +13,6 @@ use serde::Serialize;
 /// One effect of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Effect {
-    /// Its name.
     pub name: String,
     /// Which keys call for it.
     pub why: String,

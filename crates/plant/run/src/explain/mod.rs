@@ -41,7 +41,6 @@ pub struct Explained {
 pub struct Fields {
     /// Particles at t = 0.
     pub particles: usize,
-    /// Wall spheres.
     pub wall_spheres: usize,
     /// Particles that come in.
     pub coming: Coming,
@@ -61,7 +60,6 @@ pub struct Fields {
     pub critical_dt_elastic: Option<f64>,
     /// Steps of the run.
     pub steps: u64,
-    /// Effects.
     pub effects: Vec<Effect>,
     /// Damping that is matched to the step.
     pub matched_damping: Vec<MatchedDamping>,

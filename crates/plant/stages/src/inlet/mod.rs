@@ -15,7 +15,6 @@ use dem::setup::{CrossingBond, Entry, Guide, PairHistory};
 
 /// What an inlet or an insertion gives, in the order of times.
 #[derive(Debug, Clone, Copy)]
-#[allow(missing_docs)]
 pub enum Arrival {
     /// A particle or clump enters.
     Enter(Entry),

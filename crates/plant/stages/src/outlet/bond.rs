@@ -37,7 +37,6 @@ pub struct BondRow {
     pub time: f64,
     /// Position of the particle [m].
     pub place: Vec3,
-    /// The bond.
     pub bond: CrossingBond,
 }
 

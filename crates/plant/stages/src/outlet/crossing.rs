@@ -26,7 +26,6 @@ pub struct CrossingRow {
     pub outlet: u16,
     /// State at that time.
     pub particle: Particle,
-    /// Number of contacts.
     pub contacts: u16,
     /// Of a rigid clump: its shape, and its mass [kg].
     pub clump: Option<(EntryClump, f64)>,

@@ -31,12 +31,10 @@ impl Frame {
         self.through + self.turn * (p - self.through) + self.shift
     }
 
-    /// A plane.
     pub fn plane(&self, plane: &Plane) -> Plane {
         Plane { point: self.point(&plane.point), normal: self.turn * plane.normal }
     }
 
-    /// A row.
     pub fn row(&self, row: &mut CrossingRow) {
         let p = &mut row.particle;
         p.position = self.point(&p.position);
@@ -47,7 +45,6 @@ impl Frame {
         row.turn = row.turn.map(|turn| self.turn * turn);
     }
 
-    /// A contact history.
     pub fn history(&self, history: &ContactHistory) -> ContactHistory {
         history.seen(&self.turn)
     }

@@ -26,9 +26,7 @@ pub struct Origin {
 /// Contacts and bonds of a row.
 #[derive(Clone)]
 pub struct Partners {
-    /// Contact histories.
     pub contacts: Rc<[PairHistory]>,
-    /// Bonds.
     pub bonds: Rc<[CrossingBond]>,
 }
 

@@ -108,7 +108,6 @@ impl Replay {
 /// What was done.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Replayed {
-    /// Particles.
     pub particles: u64,
     /// Recorded time that became 0 [s].
     pub start: f64,

@@ -76,7 +76,6 @@ impl RunFile {
         Ok((RunFile { name, reader, first, begins, scene }, head))
     }
 
-    /// The next event.
     pub fn next(&mut self) -> Option<Result<Event>> {
         match self.first.take() {
             Some(event) => Some(Ok(event)),

@@ -4,7 +4,6 @@ use dem::setup::{ZoneMotion, ZoneTest};
 use geom::Plane;
 use std::path::PathBuf;
 
-/// Which stage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
     /// Before the plane.
@@ -32,7 +31,6 @@ pub struct Cut {
     pub keep: Stage,
     /// Length of the zone [m]; absent: "auto".
     pub length: Option<f64>,
-    /// Motion in the zone.
     pub motion: ZoneMotion,
     /// Which point of a particle crosses its planes.
     pub test: ZoneTest,

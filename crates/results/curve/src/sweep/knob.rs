@@ -8,11 +8,9 @@ use toml::Value;
 /// Which of several values is the finest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Finest {
-    /// The least.
     Least,
     /// The greatest.
     Most,
-    /// This word.
     Word(&'static str),
     /// Not known.
     Unknown,

@@ -14,7 +14,6 @@ fn figures() -> impl Iterator<Item = (&'static Entry, &'static Figure)> {
     ALL.iter().flat_map(|entry| entry.figures.iter().map(move |figure| (entry, figure)))
 }
 
-/// A measure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measure {
     /// As it is called in sentences.
@@ -34,7 +33,6 @@ pub struct Measure {
 pub struct Measured {
     /// One number, or one for each row of a profile.
     pub values: Vec<f64>,
-    /// Their unit.
     pub unit: String,
 }
 

@@ -26,7 +26,6 @@ use toml::Value;
 pub struct Sweep {
     /// The settings.
     pub grid: Grid,
-    /// The runs.
     pub jobs: Vec<SweepRun>,
     /// Folder of the programs.
     pub tools: PathBuf,

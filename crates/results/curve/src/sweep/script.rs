@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 use stream::quoted;
 use stream::reads::{RECORD, VARIABLE};
 
-/// One run.
 #[derive(Debug, Clone)]
 pub struct SweepRun {
     /// Index of its setting.
@@ -19,7 +18,6 @@ pub struct SweepRun {
     pub repeat: u64,
     /// Share by which its step is shorter than that of the setting.
     pub shorten: f64,
-    /// Its folder.
     pub folder: PathBuf,
     /// SHA-256 of scene, inputs, programs and options.
     pub stamp: String,

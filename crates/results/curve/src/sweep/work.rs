@@ -87,7 +87,6 @@ pub fn counter(work: Work) -> Result<Option<Counter>, CurveError> {
 
 /// Runs that are not finished, and how many were made from another scene, input or program.
 pub struct Open<'a> {
-    /// The runs.
     pub jobs: Vec<&'a SweepRun>,
     /// Runs that are made again.
     pub outdated: usize,

@@ -6,7 +6,6 @@ use crate::observer::Observer;
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
 
-/// Lists cracks.
 pub struct CrackList {
     between: (f64, f64),
     has_bonds: bool,

@@ -27,7 +27,6 @@ use record::column::{BROKEN, BROKEN_AT, FIRST, FORCE, MODE, SECOND, SHEAR, TENSI
 use record::topic::BONDS;
 use stream::Table;
 
-/// One bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bond {
     /// Ids of both grains.
@@ -47,7 +46,6 @@ pub struct Bond {
 pub enum Break {
     /// Tension at its rim.
     Tension,
-    /// Shear.
     Shear,
     /// The run does not say.
     Unknown,

@@ -17,7 +17,6 @@ use std::f64::consts::PI;
 pub struct Piece {
     /// Lowest id of its grains.
     pub id: u64,
-    /// How many they are.
     pub grains: usize,
     /// Mass [kg].
     pub mass: f64,

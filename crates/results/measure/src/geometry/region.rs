@@ -17,7 +17,6 @@ const OUTER: usize = 64;
 /// A shape and its volume.
 #[derive(Debug, Clone)]
 pub struct Region {
-    /// The shape.
     pub shape: Shape,
     /// Its volume [m³]; infinite for one without end.
     pub volume: f64,

@@ -70,7 +70,6 @@ impl Frame {
         self.rows(&(0..self.len() as u32).filter(|row| wanted(*row as usize)).collect::<Vec<u32>>())
     }
 
-    /// Some of its rows.
     fn rows(&self, rows: &[u32]) -> Frame {
         Frame {
             time: self.time,
@@ -153,7 +152,6 @@ pub enum Partner {
     Wall(u64),
 }
 
-/// One contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// Grain i, by id.

@@ -110,7 +110,6 @@ pub struct Run {
     pub motions: Vec<Motion>,
     /// By index of a wall: from where its file has a point to where it is at t = 0.
     pub places: BTreeMap<usize, Transform>,
-    /// Its wall spheres.
     pub spheres: WallSpheres,
     /// Changes whenever `spheres` does.
     pub spheres_seen: u64,

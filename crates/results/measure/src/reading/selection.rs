@@ -25,7 +25,6 @@ pub enum Which {
 }
 
 impl Which {
-    /// All of them.
     pub const ALL: Which = Which::Between(f64::NEG_INFINITY, f64::INFINITY);
 
     /// What no frame is: for a message.

@@ -8,7 +8,6 @@ use serde_json::Value;
 /// The force of the grains on one wall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceOnWall {
-    /// Its name.
     pub name: String,
     /// The force [N].
     pub force: Vec3,

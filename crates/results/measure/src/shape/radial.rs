@@ -21,7 +21,6 @@ const FIXED: usize = 7;
 pub struct RadialOptions {
     /// A point of the axis, and up along it.
     pub axis: Plane,
-    /// Number of rings.
     pub rings: usize,
     /// Number of sectors, the first from the x axis on.
     pub sectors: usize,

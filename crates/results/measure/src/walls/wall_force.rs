@@ -99,7 +99,6 @@ pub struct WallForce {
 }
 
 impl WallForce {
-    /// Of these contacts.
     pub fn new(what: WallContactFilter) -> WallForce {
         let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
         WallForce {

@@ -5,7 +5,6 @@ use crate::things::bodies::bodies;
 use record::ClumpRecord;
 use stream::Table;
 
-/// One table to draw.
 #[derive(Debug, Clone)]
 pub struct DrawnTable<'a> {
     /// How it is drawn.

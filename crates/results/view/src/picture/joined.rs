@@ -41,7 +41,6 @@ impl<'a> Joined<'a> {
         self.parts.iter().map(|part| (part.layer, part.first))
     }
 
-    /// How many there are.
     pub fn len(&self) -> usize {
         self.count
     }

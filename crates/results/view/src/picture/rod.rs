@@ -2,7 +2,6 @@
 
 use geom::Vec3;
 
-/// What a rod is.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum RodShape {
     /// A cone with round ends.
@@ -21,7 +20,6 @@ pub(crate) struct Rod {
     pub ends: [Vec3; 2],
     /// Radius at each end [m].
     pub radii: [f64; 2],
-    /// What it is.
     pub shape: RodShape,
     /// Parts 0 to 1.
     pub colour: [f32; 3],

@@ -210,7 +210,6 @@ fn by_tile(
     lists
 }
 
-/// One tile.
 struct Tile {
     depth: Vec<f32>,
     ball: Vec<u32>,

@@ -53,7 +53,6 @@ impl Theme {
         if dark { DARK } else { LIGHT }
     }
 
-    /// The paper as bytes.
     pub fn paper_bytes(self) -> [u8; 3] {
         self.paper.map(|c| (255.0 * c).round() as u8)
     }

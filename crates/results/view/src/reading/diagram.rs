@@ -7,7 +7,6 @@ use serde_json::{Value, json};
 pub struct Diagram {
     /// What is drawn, with unit.
     pub label: String,
-    /// The curves.
     pub curves: Vec<DiagramCurve>,
 }
 

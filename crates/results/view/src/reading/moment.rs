@@ -52,7 +52,6 @@ impl Moment {
         &self.surfaces
     }
 
-    /// What to draw.
     pub fn parts(&self) -> Vec<DrawnTable<'_>> {
         let shown = self.layers.iter().filter_map(|l| l.shown.as_ref().map(|(_, table)| (l, table)));
         shown.map(|(layer, table)| layer.head.part(table)).collect()

@@ -7,9 +7,7 @@ use stream::Table;
 /// Which grains are shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Only {
-    /// Their field.
     pub field: String,
-    /// What it is.
     pub wanted: Wanted,
 }
 

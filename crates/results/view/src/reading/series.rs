@@ -18,7 +18,6 @@ pub struct Span {
 
 /// One thing, over time.
 pub struct SeriesLayer<T> {
-    /// What it is.
     pub head: LayerHead,
     /// Of a layer that moves: its state at t = 0.
     pub home: Option<Table>,

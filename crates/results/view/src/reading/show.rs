@@ -7,9 +7,7 @@ use stream::Table;
 /// One thing to show, without its states.
 #[derive(Debug, Clone)]
 pub struct LayerHead {
-    /// What it is.
     pub role: Role,
-    /// Its name.
     pub name: String,
     /// Names that its field `material` counts.
     pub kinds: Vec<String>,

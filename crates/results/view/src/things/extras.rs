@@ -35,7 +35,6 @@ pub struct Extras {
     pub bonds: bool,
     /// Grains get the field `broken`: the share of their bonds that are broken.
     pub broken: bool,
-    /// Arrows.
     pub arrows: Option<Arrows>,
 }
 
@@ -83,7 +82,6 @@ fn missing(topic: &'static str) -> ViewError {
     ViewError::Columns { topic }
 }
 
-/// A table of rods.
 fn rods(position: &[[f64; 3]], along: &[[f64; 3]], radius: Vec<f64>) -> Result<Table, ViewError> {
     let mut table = Table::with_rows(radius.len());
     for k in 0..3 {

@@ -37,7 +37,6 @@ impl Spheres<'_> {
         Ok(Spheres { centre, radius, usual, shrunk: 1.0 })
     }
 
-    /// How many there are.
     pub fn len(&self) -> usize {
         self.centre[0].len()
     }

@@ -17,7 +17,6 @@ const LARGER: f64 = 3.0;
 
 /// Something doubtful about a mask.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum MaskWarning {
     #[error(
         "mask is empty: nothing stands out from the background; give --level or --object, or draw the mask and use --given"

@@ -22,9 +22,7 @@ pub struct Undone {
 /// What became of a class.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ClassReport {
-    /// Its number.
     pub class: u32,
-    /// Number of stones.
     pub stones: usize,
     /// Content wanted of this class [–].
     pub content_wanted: f64,

@@ -17,7 +17,6 @@ pub enum Reason {
     Outlier,
     /// Its surface lies along the line of sight.
     Grazing,
-    /// It is ground.
     Ground,
     /// It is on no surface.
     Scattered,

@@ -18,7 +18,6 @@ use thiserror::Error;
 
 /// Why a text is no list of regions.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum RegionsError {
     #[error("line {line}: not a list of [[region]] with name, shape and action: {message}")]
     Toml { line: usize, message: String },

@@ -87,7 +87,6 @@ pub struct Region {
 
 /// Why a cloud cannot be cropped.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum CropError {
     #[error("--where: {0}")]
     Condition(#[from] FilterError),

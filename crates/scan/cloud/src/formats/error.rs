@@ -6,7 +6,6 @@ use thiserror::Error;
 
 /// Why bytes are no cloud.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum ReadError {
     #[error("cannot read")]
     Io(#[source] std::io::Error),

@@ -24,7 +24,6 @@ pub struct ScaleReport {
 /// What is in a region.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RegionReport {
-    /// Points in it.
     pub points: usize,
     /// 1/√density in it, or at the ends of the surface beside it [m]; none when no surface is near.
     pub spacing: Option<f64>,

@@ -21,7 +21,6 @@ pub struct Cloud {
     pub warnings: Vec<ReadWarning>,
 }
 
-/// A unit of length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LengthUnit {
     /// As the file names it.
@@ -32,7 +31,6 @@ pub struct LengthUnit {
 
 /// What a reader noticed.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum ReadWarning {
     #[error("{0}")]
     LeftOut(String),

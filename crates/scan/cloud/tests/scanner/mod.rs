@@ -17,7 +17,6 @@ const APART: f64 = 0.05;
 
 /// What a point is of.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[allow(missing_docs)]
 pub enum Label {
     Floor,
     Box,

@@ -23,7 +23,6 @@ pub struct Wall {
 /// What was built, for the report.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WallReport {
-    /// Spheres.
     pub spheres: usize,
     /// Representative distance of neighbours P [m].
     pub spacing: f64,

@@ -41,7 +41,6 @@ pub struct DrawnReport {
     pub undecided_faces: usize,
     /// Parts that hang together, and how many of them are closed.
     pub parts: usize,
-    /// Of them closed.
     pub closed_parts: usize,
     /// Parts turned round, against the order of their corners in the file.
     pub turned_parts: usize,

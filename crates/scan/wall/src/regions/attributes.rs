@@ -6,7 +6,6 @@ use thiserror::Error;
 
 /// An attribute that cannot be.
 #[derive(Debug, Error, PartialEq)]
-#[allow(missing_docs)]
 pub enum AttributeError {
     #[error("{place}: {what} {value}: must be {range}")]
     Range { place: String, what: &'static str, value: f64, range: &'static str },

@@ -7,7 +7,6 @@ use thiserror::Error;
 
 /// Why a file is no table of regions.
 #[derive(Debug, Error)]
-#[allow(missing_docs)]
 pub enum RegionsError {
     #[error("{0}")]
     Toml(#[from] toml::de::Error),

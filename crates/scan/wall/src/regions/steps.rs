@@ -80,9 +80,7 @@ pub struct Stepped {
     pub region: String,
     /// The property, such as `friction`.
     pub property: &'static str,
-    /// The column.
     pub column: String,
-    /// Steps.
     pub steps: u32,
     /// Largest error of the steps, in the unit of the property.
     pub error: f64,
@@ -136,7 +134,6 @@ impl Region {
         Ok((0..steps).map(|k| self.step(k, steps, range, outside)).collect())
     }
 
-    /// One step.
     fn step(&self, k: u32, steps: u32, range: [f64; 2], outside: &str) -> Region {
         let share = |k: f64| k / f64::from(steps);
         let value = |k: u32| {

@@ -45,7 +45,6 @@ pub struct SurfaceAttributes {
 /// All regions: the first surface is that of the points in none of them.
 #[derive(Debug)]
 pub struct Regions {
-    /// Materials, by number.
     pub materials: Vec<MaterialRecord>,
     /// Surfaces; number 0 is outside of all regions.
     pub surfaces: Vec<SurfaceAttributes>,
@@ -87,7 +86,6 @@ struct File {
 }
 
 impl Region {
-    /// Where it is.
     fn place(&self, number: usize, load: wear::Load<TriMesh>) -> Result<RegionPlace, RegionsError> {
         let place = format!("region {number} '{}'", self.name);
         let shape = self.shape.as_ref().map(|text| Shape::parse(text, &load)).transpose();

@@ -10,7 +10,6 @@ use geom::Vec3;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Where the flow is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Flow<'a> {
     /// In this direction from the surface.

@@ -102,7 +102,6 @@ pub struct Flank {
     pub profile: Vec<[f64; 2]>,
     /// The bins that were fitted: first, and one past the last.
     pub fitted: [usize; 2],
-    /// The line.
     pub line: Line,
 }
 

@@ -15,7 +15,6 @@ pub struct Frame3 {
     pub u: Vec3,
     /// Second level direction.
     pub v: Vec3,
-    /// Up.
     pub up: Vec3,
 }
 

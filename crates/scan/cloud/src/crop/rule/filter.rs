@@ -16,7 +16,6 @@ use thiserror::Error;
 
 /// Why a condition cannot be used.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[allow(missing_docs)]
 pub enum FilterError {
     #[error("'{text}': {what} at character {at}: write it as in classification != 7 && intensity > 20")]
     Text { text: String, what: &'static str, at: usize },

@@ -69,7 +69,6 @@ pub struct SparseReport {
     pub places: usize,
     /// Voids that stay too wide.
     pub left: usize,
-    /// Places where they are.
     pub left_places: usize,
     /// Diameter of the widest void there [m].
     pub widest_left: f64,
@@ -90,7 +89,6 @@ struct Surface {
     points: Vec<Vec3>,
     /// How many are of the cloud.
     scanned: usize,
-    /// Of these.
     grid: Grid,
     /// α of each [m].
     widest: Vec<f64>,

@@ -33,7 +33,6 @@ pub(crate) struct Fields<'a> {
 const VALID: i64 = 0;
 
 impl<'a> Fields<'a> {
-    /// Of a scan.
     pub(crate) fn of(scan: &'a PointCloud, color_scale: ColorScale) -> Fields<'a> {
         use RecordName as Name;
         let place = |name: Name| scan.prototype.iter().position(|record| record.name == name);

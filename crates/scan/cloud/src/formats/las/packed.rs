@@ -272,7 +272,6 @@ impl Head {
     }
 }
 
-/// Layers of an item.
 fn layers_of(item: LazItemType) -> usize {
     match item {
         LazItemType::Point14 => 9,

@@ -7,7 +7,6 @@ pub type Load<'a, T> = &'a dyn Fn(&str) -> Result<T, String>;
 
 /// What is wrong with a table of wear.
 #[derive(Debug, Error, Clone, PartialEq)]
-#[allow(missing_docs)]
 pub enum WearError {
     #[error(
         "wear: give one of measured = \"PROPERTY\", drawing = \"MESH\", value = NUMBER; {given} are given"
