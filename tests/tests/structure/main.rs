@@ -192,6 +192,19 @@ fn no_ring_of_files_is_larger_than_a_small_folder() {
     assert!(large.is_empty(), "{}", large.join("\n"));
 }
 
+/// `tools/README.md` names each room of tools with what is in it.
+#[test]
+fn the_page_of_tools_has_every_room() {
+    let page = fs::read_to_string(root().join("tools/README.md")).expect("it is there");
+    let mut told = BTreeSet::new();
+    for row in page.lines().filter(|line| line.starts_with("| [")) {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let room = cells[1].split([']', '[']).nth(1).expect("a link");
+        told.extend(cells[2].split('`').skip(1).step_by(2).map(|tool| format!("{room}/{tool}")));
+    }
+    assert_eq!(told, packages("tools"));
+}
+
 /// A package's line in its manifest says what it is: registries and `cargo metadata` show it.
 #[test]
 fn every_package_says_what_it_is() {

@@ -3,16 +3,16 @@
 //! It knows nothing of files, TOML or the terminal. SI units throughout. Signs: the unit normal n of a contact points from j to i, an overlap
 //! δ > 0 is contact, repulsion is positive. Contact laws and the contact loop are in [`laws`].
 //!
-//! The folders are layers: each uses those above it in this list, and nothing below (`tests/tests/structure/` checks it).
+//! The folders are layers: each uses only those that stand before it in this list (`tests/tests/structure/` checks it).
 //!
 //! ```text
 //! threads      work shared out
-//! space        searching, the order of particles, rotation
+//! space        searching, rotation, the order of wall spheres
 //! setup        plain data that a simulation is made of
 //! walls        shape × motion → contact points
 //! model        what is fixed: resolved once from a setup, checked, with the step that is stable
 //! state        what changes: what a checkpoint holds
-//! neighbours   lists, rebuildable from Model and State
+//! neighbours   lists; a rebuild sorts the particles, and every column follows (`state/row_order.rs`)
 //! passes       integrate, clumps, bonds, drag, local damping, servos, springs of walls, sleep, zones, ledger
 //! forces       the sweep over tiles: forces, then the move
 //! observe      records, snapshots, energy, guards

@@ -1,4 +1,7 @@
 //! The compositions that are compiled for devices as well, and how a device gets one: as numbers in a fixed order.
+//!
+//! To add a law: a line in `ported!`, a `fields!` line for its numbers, and a branch in `dem/src/model/compose.rs` that makes it [`Portable`]. It may
+//! keep at most 8 numbers of history (`threads.rs`). Then `make -C crates/engine/cuda/kernels`.
 
 use alloc::vec::Vec;
 use laws::contact::{Batch, Composition, StepInputs, run};

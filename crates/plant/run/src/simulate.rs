@@ -1,4 +1,4 @@
-//! The run: steps, and what is written between them.
+//! The loop of a run; `write.rs` writes what is due between its steps.
 
 use crate::checkpoint::Checkpoint;
 use crate::error::{Ended, Result};
@@ -20,7 +20,7 @@ use std::io::Write;
 /// Steps between searches for particles that zones have lost: in so few, no particle gets past the length of a zone.
 const LOOK_BACK: u64 = 64;
 /// Steps between reports of progress, or more where a device makes many at once.
-const REPORTED: u64 = 256;
+const REPORT_EVERY: u64 = 256;
 /// Steps that a device makes at once, at most.
 const AT_ONCE: u64 = 1 << 16;
 
@@ -66,9 +66,9 @@ pub fn run<W: Write>(
         let last = step >= run.schedule.last;
         // With each frame and checkpoint: what the caller knows to be written decides what it keeps.
         let wrote = run.schedule.is_frame(step) || run.schedule.is_checkpoint(step);
-        if last || step / REPORTED != reported || wrote {
+        if last || step / REPORT_EVERY != reported || wrote {
             report(&run.progress());
-            reported = step / REPORTED;
+            reported = step / REPORT_EVERY;
         }
         if last {
             break None;

@@ -61,8 +61,8 @@ impl Fixed {
         let (mut classes, mut of_images, mut all) = (0, 0, Vec::new());
         self.kinds.clear();
         for kind in &model.kinds {
-            let (name, numbers) = kind.kernel.ported().unwrap_or_default();
-            let columns = kind.kernel.columns();
+            let (name, numbers) = kind.composition.ported().unwrap_or_default();
+            let columns = kind.composition.columns();
             let mut new = DeviceKind {
                 composition: NAMES.iter().position(|n| *n == name).unwrap_or(NAMES.len()) as u32,
                 with: PARTICLES,
@@ -71,7 +71,7 @@ impl Fixed {
                 class: classes,
                 columns: columns as u32,
                 patch: kind.patch.filter(|p| p.shared).map_or(0, |p| 1 + u32::from(p.hertz)),
-                flips: (0..columns).map(|c| u32::from(kind.kernel.flips(c)) << c).sum(),
+                flips: (0..columns).map(|c| u32::from(kind.composition.flips(c)) << c).sum(),
                 ..DeviceKind::default()
             };
             match kind.with {

@@ -73,7 +73,7 @@ impl TileSlice<'_> {
                 return 0.0;
             }
             // The history of a law that adheres begins with what says that contact was made.
-            let (history, columns) = (s.history - self.from.history, kind.kernel.columns());
+            let (history, columns) = (s.history - self.from.history, kind.composition.columns());
             let at = self.layout.history_at(history, k, 0, columns);
             held(row, &points[k], law, self.layout.get(self.history, at) > 0.0)
         };

@@ -82,9 +82,9 @@ impl TileSlice<'_> {
         inputs: &TileInputs,
         sums: &mut Sums,
     ) -> bool {
-        let (kernel, lists) = (&inputs.model.kinds[s.kind].kernel, &inputs.lists);
+        let (composition, lists) = (&inputs.model.kinds[s.kind].composition, &inputs.lists);
         let (first, n) = (slots.start - self.from.slot, slots.len());
-        let words = self.layout.history(kernel.columns());
+        let words = self.layout.history(composition.columns());
         let within = slots.start - s.slots.start;
         let (row, history) =
             (s.rows - self.from.row + within, s.history - self.from.history + within * words);
@@ -112,7 +112,7 @@ impl TileSlice<'_> {
             each: self.each.rows_mut(first, n, self.layout),
             ledger: rows_mut(self.ledger, first * LEDGER, n * LEDGER),
         };
-        kernel.run(inputs.model.width, inputs.step, batch)
+        composition.run(inputs.model.width, inputs.step, batch)
     }
 
     /// Finds the contact points of images and walls as they are now.
@@ -157,7 +157,7 @@ impl TileSlice<'_> {
     fn touch_wall(&mut self, s: &Segment, wall: usize, inputs: &TileInputs) {
         let (first, layout) = (s.rows - self.from.row, self.layout);
         let (i, partner) = (&inputs.lists.i[s.contacts()], &inputs.lists.partner[s.contacts()]);
-        let columns = inputs.model.kinds[s.kind].kernel.columns();
+        let columns = inputs.model.kinds[s.kind].composition.columns();
         let history = s.history - self.from.history;
         let history = &mut self.history[history..history + s.slots.len() * layout.history(columns)];
         let active = (s.slots.start - self.from.slot) / BLOCK;

@@ -106,14 +106,15 @@ mod tests {
         for law in laws() {
             let compliance = Compliance { clumps: 1.0, springs: 1.0 };
             let pair = Pair { law: &law, elastic, compliance, damping: Damping::NONE };
-            let kernel = compose(&pair, Precision::Double);
+            let composition = compose(&pair, Precision::Double);
             let flips = active(&law).flat_map(|d| d.history);
             let flips = flips.flat_map(|field| vec![field.kind == Kind::Vector; field.kind.columns()]);
-            let found: Vec<bool> = (0..kernel.columns()).map(|column| kernel.flips(column)).collect();
+            let found: Vec<bool> =
+                (0..composition.columns()).map(|column| composition.flips(column)).collect();
             assert_eq!(found, flips.collect::<Vec<_>>(), "{law:?}");
             let has = |slot: Slot| active(&law).any(|d| d.slot == slot);
-            assert_eq!(kernel.rotates(), has(Slot::Sliding), "{law:?}");
-            assert_eq!(kernel.torques(), has(Slot::Rolling) || has(Slot::Twisting), "{law:?}");
+            assert_eq!(composition.rotates(), has(Slot::Sliding), "{law:?}");
+            assert_eq!(composition.torques(), has(Slot::Rolling) || has(Slot::Twisting), "{law:?}");
         }
     }
 

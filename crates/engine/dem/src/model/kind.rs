@@ -24,7 +24,7 @@ impl With {
 /// Contacts that share a law.
 pub struct Kind {
     /// The law.
-    pub kernel: Box<dyn Composition>,
+    pub composition: Box<dyn Composition>,
     /// Materials, lower first; of the particle, then of the wall.
     pub between: (u16, u16),
     /// What they meet.

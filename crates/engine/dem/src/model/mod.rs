@@ -1,7 +1,7 @@
 //! What is fixed while a simulation runs: resolved once from a setup, read by everything, changed by nothing.
 //!
 //! `check` refuses numbers without meaning (by `in_range`), `limit` bounds the time step (with `dense_walls` and `bonds`), `start` makes
-//! the kinds of contact, each with its composition of effects. Uses setup, effects, walls and kernel.
+//! the kinds of contact, each with its composition of effects. Uses setup, walls and laws.
 
 pub mod bonds;
 pub mod check;
@@ -104,7 +104,7 @@ impl Model {
         slow_enough(&setup, &walls, dt)?;
         faster_than_sleep(&setup, &walls)?;
         let responses = responses(&setup, &kinds, dt);
-        let rotates = kinds.iter().any(|k| k.kernel.rotates()) || !setup.bonds.is_empty();
+        let rotates = kinds.iter().any(|k| k.composition.rotates()) || !setup.bonds.is_empty();
         let later = setup.bonds.iter().any(|law| law.at > 0.0);
         let contact_step = if later { critical_of_contacts(&setup)?.dt } else { f64::INFINITY };
         Ok(Model {

@@ -94,7 +94,7 @@ pub fn kinds(setup: &Setup, dt: f64) -> Result<Vec<Kind>, SetupError> {
             setup.contacts.iter().zip(&matched).find(|(c, _)| known(c)).map_or(damping, |(_, d)| *d);
         let pair = Pair { law, elastic, compliance: setup.compliance(a, b, crowd(a, with)), damping };
         let patch = patch(setup, law, elastic, (a, b), with);
-        Ok(Kind { kernel: compose(&pair, setup.precision), between: (a, b), with, patch })
+        Ok(Kind { composition: compose(&pair, setup.precision), between: (a, b), with, patch })
     };
     for &a in &present {
         for &b in present.iter().filter(|&&b| a <= b) {

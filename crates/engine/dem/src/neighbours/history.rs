@@ -51,8 +51,8 @@ impl<'a> Finder<'a> {
 
     /// Fills the history of one segment. A contact whose particles have been exchanged takes the opposite.
     fn fill(&self, slots: &Slots, segment: &Segment, history: &mut [f64]) {
-        let kernel = &self.kinds[segment.kind].kernel;
-        let (old, columns) = (&self.old.columns, kernel.columns());
+        let composition = &self.kinds[segment.kind].composition;
+        let (old, columns) = (&self.old.columns, composition.columns());
         if columns == 0 {
             return;
         }
@@ -66,7 +66,11 @@ impl<'a> Finder<'a> {
             for c in 0..columns {
                 let number = old.history_of_slot(was.segment, was.slot, c, columns);
                 let at = old.layout.history_at(0, slot - segment.slots.start, c, columns);
-                old.layout.put(history, at, if was.swapped && kernel.flips(c) { -number } else { number });
+                old.layout.put(
+                    history,
+                    at,
+                    if was.swapped && composition.flips(c) { -number } else { number },
+                );
             }
         }
     }
@@ -119,7 +123,7 @@ pub fn carry_over(model: &Model, state: &mut State, lists: &NeighbourLists, old:
         let mut rest = &mut history[..];
         let mut pieces = Vec::with_capacity(slots.segments.len());
         for s in &slots.segments {
-            let words = layout.history(model.kinds[s.kind].kernel.columns());
+            let words = layout.history(model.kinds[s.kind].composition.columns());
             let (own, others) = rest.split_at_mut(s.slots.len() * words);
             rest = others;
             pieces.push((s, own));

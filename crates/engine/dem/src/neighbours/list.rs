@@ -70,7 +70,7 @@ impl Slots {
                 (kinds[kind].with, first..first + padded, kinds[kind].patch.is_some());
             new.segments.push(Segment { kind, with, slots, len, later, history, rows, kept, patch, patches });
             first += padded;
-            history += padded * layout.history(kinds[kind].kernel.columns());
+            history += padded * layout.history(kinds[kind].composition.columns());
             rows += if with == With::Particles { 0 } else { padded };
             kept += if later || with == With::Images { padded } else { 0 };
             patch += if patches { padded * PATCH } else { 0 };

@@ -1,7 +1,7 @@
 //! Neighbour lists: all contacts that may come to act before the next rebuild.
 //!
 //! `rebuild` makes them from Model and State alone, so that a resumed run has the same lists, and carries contact history over. `slots`
-//! is their layout: tiles of particles, segments of one kind of contact, blocks of slots. Uses model, state, space, walls, kernel.
+//! is their layout: tiles of particles, segments of one kind of contact, blocks of slots. Uses model, state, space, walls, laws.
 
 pub mod history;
 pub mod list;

@@ -190,7 +190,7 @@ pub fn take_lists(model: &Model, state: &mut State, lists: &mut NeighbourLists, 
 /// Puts lists in place, with columns for their contacts.
 fn put(model: &Model, state: &mut State, lists: &mut NeighbourLists, slots: Slots) {
     lists.slots = slots;
-    lists.step = StepColumns::new(&lists.slots, model.kinds.iter().any(|k| k.kernel.rotates()));
+    lists.step = StepColumns::new(&lists.slots, model.kinds.iter().any(|k| k.composition.rotates()));
     let history = Aligned::zeros(lists.slots.history);
     state.contacts = ContactColumns { layout: model.layout(), history, ..ContactColumns::default() };
     if state.sleepers.is_some() || !state.zones.none() {

@@ -41,9 +41,11 @@ pub fn restore(model: &Model, state: &mut State, lists: &mut NeighbourLists, kep
             else {
                 continue;
             };
-            let kernel = &model.kinds[segment.kind].kernel;
+            let composition = &model.kinds[segment.kind].composition;
             let mut numbers = columns(model, &segment, &history);
-            for (_, number) in numbers.iter_mut().enumerate().filter(|(c, _)| swapped && kernel.flips(*c)) {
+            for (_, number) in
+                numbers.iter_mut().enumerate().filter(|(c, _)| swapped && composition.flips(*c))
+            {
                 *number = -*number;
             }
             state.contacts.set_history(&segment, slot, &numbers);

@@ -289,7 +289,7 @@ impl WallShape {
     pub fn elements(&self) -> Vec<WallElement> {
         match self {
             WallShape::Spheres(spheres) => {
-                let order = crate::space::order::order_of_spheres(spheres);
+                let order = crate::space::wall_sphere_order::order_of_spheres(spheres);
                 let of = |&k: &u32| spheres[k as usize];
                 order.iter().map(of).map(|(centre, radius)| WallElement::Sphere(centre, radius)).collect()
             }

@@ -1,8 +1,8 @@
-//! The search for neighbours, the order of particles, turning by a vector.
+//! The search for neighbours, the order of wall spheres, turning by a vector.
 
-pub mod order;
 pub mod rotation;
 pub mod search;
+pub mod wall_sphere_order;
 
 const _: () = assert!(laws::space::sphere::TURNS == geom::sphere::INVERSE_INERTIA);
 

@@ -1,7 +1,7 @@
 //! What changes while a simulation runs, and what a checkpoint holds: nothing of it can be derived.
 //!
 //! One file for each part. `contacts` are columns by slot of the neighbour lists, so they are saved apart
-//! ([`contacts::SavedColumns`]). Uses model, setup and kernel.
+//! ([`contacts::SavedColumns`]). Uses model, setup and laws.
 
 pub mod bonds;
 pub mod cell;
@@ -191,7 +191,7 @@ impl State {
 
     /// Whether anything makes torques besides those of tangential forces.
     pub fn torques(&self, model: &Model) -> bool {
-        !self.bonds.none() || model.kinds.iter().any(|k| k.kernel.torques())
+        !self.bonds.none() || model.kinds.iter().any(|k| k.composition.torques())
     }
 }
 

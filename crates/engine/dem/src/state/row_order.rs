@@ -1,7 +1,8 @@
 //! Particles in a new order: each column that has a row for each of them follows.
 //!
 //! Every part of the state takes itself to pieces here or in its own `reorder`, so that a field that is added does not compile until it
-//! is decided what a new order does to it.
+//! is decided what a new order does to it. `Particles::push` and `reserve`, and the columns of a device (`gpu/src/tables/columns.rs`,
+//! `permute`), are not checked so: a column goes there, too.
 
 use crate::state::{SpareColumns, State};
 

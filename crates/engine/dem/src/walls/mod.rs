@@ -12,7 +12,7 @@ pub(crate) mod seams;
 mod translation;
 
 use crate::setup::{Mount, Servo, Wall, WallShape};
-use crate::space::order;
+use crate::space::wall_sphere_order;
 use crate::walls::seams::{HistorySlots, Nearest};
 use geom::motion::{Pose, SurfaceMotion};
 use geom::{Boxes, Grid, Motion, Plane, Vec3};
@@ -298,9 +298,10 @@ fn span(shape: &WallShape, axis: &Vec3) -> f64 {
 }
 
 fn sorted_spheres(spheres: &[(Vec3, f64)]) -> Surface {
-    let (order, largest) = (order::order_of_spheres(spheres), order::largest_of(spheres));
+    let (order, largest) =
+        (wall_sphere_order::order_of_spheres(spheres), wall_sphere_order::largest_of(spheres));
     let centres: Vec<Vec3> = order.iter().map(|&k| spheres[k as usize].0).collect();
-    let grid = Grid::new(&centres, order::cell_of_spheres(spheres));
+    let grid = Grid::new(&centres, wall_sphere_order::cell_of_spheres(spheres));
     let radii = order.iter().map(|&k| spheres[k as usize].1).collect();
     Surface::Spheres { centres, radii, grid, largest, original: order }
 }

@@ -1,4 +1,4 @@
-//! Neighbour lists as threads of a device make them: the lists of [`crate::neighbours`], slot by slot.
+//! Neighbour lists as threads of a device make them: the lists of `dem::neighbours`, slot by slot.
 //!
 //! ```text
 //! particles  wrapped, with their margins → their box → keys of their cells → sorted by key → all columns in that order

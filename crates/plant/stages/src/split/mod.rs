@@ -1,7 +1,8 @@
 //! A scene cut in two at a plane: the stage upstream records, the stage downstream lets in.
 //!
-//! The text of the scene is edited, so that comments stay. [`split`] decides for each entry on which side of the plane it lies
-//! ([`sides`], [`sources`], [`walls`]), removes those of the other stage, adds the zone of the cut, and marks it with a hash of all that
+//! The text of the scene is edited, so that comments stay. [`split`] removes what the stage does not need: sources and zones by the side
+//! on which they lie ([`sides`], [`sources`]); a wall only if it is at rest, has an end, and lies more than half the largest diameter beyond the cut
+//! ([`walls`]). It adds the zone of the cut, and marks it with a hash of all that
 //! the flow through the cut depends on ([`mark`]), so that a record of another plant is refused. [`cutting`] holds the scene and the cut.
 
 mod cut;

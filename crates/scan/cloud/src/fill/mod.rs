@@ -1,4 +1,12 @@
-//! Fill: points on the surface that spans the holes of a cloud, and where it is sparse.
+//! Fills holes, and with `for_spacing` also surface that is too sparse.
+//!
+//! ```text
+//! apply    finds the holes and fills each
+//! mesh     the surface over a hole
+//! darts    points on it
+//! sight    drops points that a scanner saw through
+//! sparse   points where the scan is too thin
+//! ```
 
 mod apply;
 mod darts;

@@ -1,7 +1,7 @@
 //! Readers of other crates, whose panics become errors.
 //!
 //! laz and pcd-rs panic on some damaged packed points, by an index or a shift that the file gives; las and e57 read numbers in the same way. What would take
-//! memory, time or the whole stack instead is refused before they run. Each reader gets a thread of its own: a panic ends that thread alone and is told as an
+//! memory, time or the whole stack instead is refused before they run. Each reader gets a thread of its own: a panic ends that thread alone and becomes an
 //! error of the file. The standard library prints a panic by the hook of the whole process, before anything can catch it; a hook knows the name of the thread,
 //! so the one that is set here prints nothing for these threads and passes all others on.
 

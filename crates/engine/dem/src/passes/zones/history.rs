@@ -14,11 +14,11 @@ use std::ops::Range;
 
 /// History of a contact, as the particle at this end sees it.
 pub fn history_at(model: &Model, state: &State, segment: &Segment, end: SlotEnd) -> ContactHistory {
-    let kernel = &model.kinds[segment.kind].kernel;
-    let columns = kernel.columns();
+    let composition = &model.kinds[segment.kind].composition;
+    let columns = composition.columns();
     let number = |c: usize| {
         let n = state.contacts.history_of_slot(segment, end.slot(), c, columns);
-        if end.is_second() && kernel.flips(c) { -n } else { n }
+        if end.is_second() && composition.flips(c) { -n } else { n }
     };
     let mut history = ContactHistory::default();
     for (listed, recorded) in history_columns(model, segment) {
@@ -29,9 +29,9 @@ pub fn history_at(model: &Model, state: &State, segment: &Segment, end: SlotEnd)
     history
 }
 
-/// The columns of a kind of contact, in the kernel's order.
+/// The columns of a kind of contact, in the order of its composition.
 pub fn columns(model: &Model, segment: &Segment, history: &ContactHistory) -> Vec<f64> {
-    let mut columns = vec![0.0; model.kinds[segment.kind].kernel.columns()];
+    let mut columns = vec![0.0; model.kinds[segment.kind].composition.columns()];
     for (listed, recorded) in history_columns(model, segment) {
         columns[listed].copy_from_slice(&history.numbers()[recorded]);
     }
@@ -50,9 +50,10 @@ pub fn restore_history(model: &Model, state: &mut State, lists: &mut NeighbourLi
     for (partner, history) in state.zones.take_histories(id) {
         let Some(end) = end_beside(state, lists, k, partner) else { continue };
         let segment = lists.slots.segment_of(end.slot()).clone();
-        let kernel = &model.kinds[segment.kind].kernel;
+        let composition = &model.kinds[segment.kind].composition;
         let mut columns = columns(model, &segment, &history);
-        for (_, number) in columns.iter_mut().enumerate().filter(|(c, _)| end.is_second() && kernel.flips(*c))
+        for (_, number) in
+            columns.iter_mut().enumerate().filter(|(c, _)| end.is_second() && composition.flips(*c))
         {
             *number = -*number;
         }
