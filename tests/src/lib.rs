@@ -5,7 +5,6 @@ extern crate self as grainpipe_tests;
 
 pub mod engines;
 pub mod findings;
-pub mod keys;
 pub mod lab;
 pub mod layout;
 pub mod metamorphic;

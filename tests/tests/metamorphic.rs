@@ -1,10 +1,10 @@
 //! Random scenes, each asked the same question in other words; and every key is drawn.
 
-use grainpipe_tests::keys::documented;
 use grainpipe_tests::metamorphic::answer::Runner;
 use grainpipe_tests::metamorphic::campaign::{self, Findings};
 use grainpipe_tests::metamorphic::{draw, page};
 use grainpipe_tests::tools::program;
+use scene::keys::rows;
 use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -99,9 +99,9 @@ fn every_key_is_drawn() {
     }
     let is_left_out = |path: &str| LEFT_OUT.iter().any(|(key, _)| path.starts_with(key));
     let axes = |path: &str| ["x", "y", "z"].map(|axis| path.replace("strain.x", &format!("strain.{axis}")));
-    let missing: Vec<String> = documented()
-        .iter()
-        .map(|row| row.path())
+    let missing: Vec<String> = rows()
+        .into_iter()
+        .map(|(path, _)| path)
         .filter(|path| !is_left_out(path) && !axes(path).iter().any(|path| drawn.contains(path)))
         .collect();
     assert!(missing.is_empty(), "never drawn: {missing:#?}");

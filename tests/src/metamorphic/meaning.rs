@@ -1,6 +1,6 @@
 //! What a key of a scene is: its dimension, from the unit that the page gives it, and how it turns with the frame.
 
-use crate::keys::documented;
+use scene::keys::rows;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -46,19 +46,17 @@ pub struct Meaning {
 }
 
 /// Symbols of units.
-const SYMBOLS: [(&str, Dimension); 12] = [
+const SYMBOLS: [(&str, Dimension); 10] = [
     ("m", [1, 0, 0]),
     ("kg", [0, 1, 0]),
     ("s", [0, 0, 1]),
-    ("min", [0, 0, 1]),
+    ("rpm", [0, 0, -1]),
     ("N", [1, 1, -2]),
     ("Pa", [-1, 1, -2]),
     ("J", [2, 1, -2]),
     ("Hz", [0, 0, -1]),
     ("rad", [0; 3]),
     ("1", [0; 3]),
-    ("–", [0; 3]),
-    ("file", [0; 3]),
 ];
 
 /// The dimension of a unit such as "N s/m".
@@ -84,12 +82,11 @@ pub fn dimension(unit: &str) -> Dimension {
 const NONE: Dimension = [0; 3];
 const LENGTH: Dimension = [1, 0, 0];
 
-/// Keys whose type on the page does not say how they turn, and keys of inline tables, which have no row.
+/// Keys whose type and unit do not say how they turn.
 const SPECIAL: &[(&str, Kind, Dimension)] = &[
     ("domain.low", Kind::Point, LENGTH),
     ("domain.high", Kind::Point, LENGTH),
     ("domain.periodic", Kind::Axes, NONE),
-    ("domain.strain.rate_limit", Kind::Number, [0, 0, -1]),
     ("body.position", Kind::Point, LENGTH),
     ("body.quaternion", Kind::Orientation, NONE),
     ("body.spin", Kind::Axial, [0, 0, -1]),
@@ -97,32 +94,22 @@ const SPECIAL: &[(&str, Kind, Dimension)] = &[
     ("clump.moments", Kind::Moments, NONE),
     ("fill.shape", Kind::Shape, LENGTH),
     ("insert.shape", Kind::Shape, LENGTH),
-    ("fill.diameter", Kind::Number, LENGTH),
-    ("insert.diameter", Kind::Number, LENGTH),
     ("fill.sizes", Kind::Number, NONE),
     ("insert.sizes", Kind::Number, NONE),
     ("wall.plane", Kind::Plane, LENGTH),
     ("wall.box", Kind::Corners, LENGTH),
     ("wall.faces", Kind::Faces, NONE),
     ("wall.solid", Kind::Shape, LENGTH),
-    ("wall.servo.area_between", Kind::Number, LENGTH),
-    ("wall.servo.direction", Kind::Vector, NONE),
-    ("wall.spring.direction", Kind::Vector, NONE),
     ("outlet.plane", Kind::Plane, LENGTH),
     ("inlet.plane", Kind::Plane, LENGTH),
-    ("wall.motion.vibrate.amplitude", Kind::Vector, LENGTH),
-    ("wall.motion.vibrate.frequency", Kind::Number, [0, 0, -1]),
-    ("wall.motion.swing.amplitude", Kind::Number, NONE),
-    ("wall.motion.swing.frequency", Kind::Number, [0, 0, -1]),
 ];
 
 static MEANINGS: LazyLock<BTreeMap<String, Meaning>> = LazyLock::new(|| {
     let mut all = BTreeMap::new();
-    for row in documented() {
-        let unit = if row.unit.contains(',') { "" } else { &row.unit };
+    for (path, row) in rows() {
         let kind = if row.kind == "3 numbers" { Kind::Vector } else { Kind::Number };
-        let path = row.path().replace("domain.strain.x", "domain.strain");
-        all.insert(path, Meaning { dimension: dimension(unit), kind });
+        let path = path.replace("domain.strain.x", "domain.strain");
+        all.insert(path, Meaning { dimension: dimension(row.unit), kind });
     }
     for (path, kind, dimension) in SPECIAL {
         all.insert((*path).to_owned(), Meaning { dimension: *dimension, kind: *kind });

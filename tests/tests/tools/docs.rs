@@ -2,6 +2,7 @@
 
 use grainpipe_tests::tools::succeed;
 use grainpipe_tests::tree::{packages, root};
+use scene::keys::sections;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -22,10 +23,15 @@ fn compare(page: &str, of: &str, wanted: &str) {
     }
 }
 
-/// docs/reference/scene.md has the effects and keys of contacts as the engine describes them.
+/// docs/reference/scene.md has every key as the code declares it, and the effects of contacts as the engine describes them.
 #[test]
 fn the_page_on_scenes_has_every_effect_and_key() {
-    compare("docs/reference/scene.md", "the effects' descriptions", &dem::effects::tables());
+    let page = "docs/reference/scene.md";
+    compare(page, "the effects' descriptions", &dem::effects::table());
+    for section in sections() {
+        let of = if section.path.is_empty() { "the top level" } else { &section.path };
+        compare(page, &format!("the keys of {of}"), &section.markdown());
+    }
 }
 
 /// Files of the engine whose heads hold the laws of contacts, and what the laws are called.

@@ -1,15 +1,13 @@
-//! Every key of a scene, in each form of its value: the tables of docs/reference/scene.md list what the code knows, each row stands in a scene here, and
-//! every scene runs.
+//! Every key of a scene, in each form of its value: each stands in a scene here, and every scene runs.
 
 mod scenes;
 
-use grainpipe_tests::keys::{Documented, documented};
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::line;
 use grainpipe_tests::written::note;
+use scene::keys::{Row, rows};
 use scenes::{FILES, FLAT, before, scenes};
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::collections::BTreeMap;
 use toml::{Table, Value};
 
 /// Every value in the scenes, by the dotted key without indices.
@@ -62,54 +60,15 @@ fn missing(kind: &str, values: &[Value]) -> Vec<String> {
 
 #[test]
 fn every_key_stands_in_a_scene_in_each_form() {
-    let (rows, values) = (documented(), values());
-    assert!(rows.len() > 120, "{} rows", rows.len());
-    let wrong = |row: &Documented| {
-        let key = row.path();
-        let found = values.get(&key).map_or(&[][..], |found| found);
+    let (rows, values) = (rows(), values());
+    assert!(rows.len() > 200, "{} rows", rows.len());
+    let wrong = |(key, row): &(String, Row)| {
+        let found = values.get(key).map_or(&[][..], |found| found);
         let missing = missing(&row.kind, found);
         (!missing.is_empty()).then(|| format!("{key}: {}", missing.join(", ")))
     };
     let wrong: Vec<String> = rows.iter().filter_map(wrong).collect();
     assert!(wrong.is_empty(), "without a scene in every_key/scenes.rs: {wrong:#?}");
-}
-
-/// What the code calls known in a table.
-fn known(table: &str) -> BTreeSet<String> {
-    let line = match table.rsplit_once('.') {
-        Some((outer, inner)) => {
-            let material = if outer == "wall" { "material = \"m\"\n" } else { "" };
-            format!("[[{outer}]]\n{material}{inner} = {{ zzzzzzzzzzzzzzzz = 1 }}")
-        }
-        None if table.is_empty() => "zzzzzzzzzzzzzzzz = 1".to_owned(),
-        None => format!("[[{table}]]\nzzzzzzzzzzzzzzzz = 1"),
-    };
-    let single = line.replace("[[", "[").replace("]]", "]");
-    let refused = [line, single].map(|text| {
-        let scene = scene::Scene::new("s", text, &[], Path::new(""));
-        scene.map_or_else(|e| e.to_string(), |_| String::new())
-    });
-    let list = refused.iter().find_map(|message| message.split_once("known here: "));
-    let list = list.unwrap_or_else(|| panic!("{table}: {refused:?}")).1;
-    list.split(", ").map(str::to_owned).collect()
-}
-
-#[test]
-fn the_page_lists_what_the_code_knows() {
-    let rows = documented();
-    let tables: BTreeSet<&str> = rows.iter().map(|row| row.table.as_str()).collect();
-    // A key that another table of the page explains, and what a row mentions in passing.
-    let elsewhere = ["between", "characteristic_velocity"];
-    for table in &tables {
-        let of = rows.iter().filter(|row| row.table == **table);
-        let page: BTreeSet<String> =
-            of.map(|row| row.key.split('.').next().unwrap_or_default().to_owned()).collect();
-        let mut known = known(table);
-        // Tables of their own are not keys of the top level.
-        known.retain(|key| !(table.is_empty() && tables.contains(key.as_str())));
-        known.retain(|key| !(*table == "contact" && elsewhere.contains(&key.as_str())));
-        assert_eq!(page, known, "[{table}] on the page, and in the code");
-    }
 }
 
 #[test]

@@ -81,7 +81,7 @@ impl Scene {
         let inlets = m.inlet.iter().filter_map(|i| i.source.as_deref());
         let sizes = m.fill.iter().map(Fill::grains).chain(m.insert.iter().map(Insert::grains));
         let sizes: Vec<String> = sizes.filter_map(|grains| grains.names().1).collect();
-        let motions = m.wall.iter().flat_map(|w| w.motion.iter().flatten());
+        let motions = m.wall.iter().flat_map(|w| w.motion.iter().flat_map(|list| list.iter()));
         let paths = motions.filter_map(|motion| motion.path.as_ref()).map(|path| path.source.as_str());
         let loads = m.wall.iter().filter_map(|w| Some(w.servo.as_ref()?.path.as_ref()?.source.as_str()));
         let walls = walls.chain(paths).chain(loads);

@@ -16,7 +16,7 @@ use record::StopCause;
 use run::{Checkpoint, Earlier, Outcome, Progress, RunError, Settings, run};
 use scene::{Input, Plan, Scene, SceneError, SceneSetupError};
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use watch::{Filling, Watch};
@@ -32,8 +32,8 @@ const EXAMPLES: &str = "Examples:\n\
 #[command(after_help = EXAMPLES)]
 struct Args {
     /// The scene (TOML), - for stdin
-    #[arg(value_name = "SCENE.toml")]
-    scene: Source,
+    #[arg(value_name = "SCENE.toml", required_unless_present = "keys")]
+    scene: Option<Source>,
     /// Walls and inlets (MCAP, detected by content), - for stdin
     #[arg(value_name = "WALLS|INLET.mcap")]
     inputs: Vec<Source>,
@@ -49,6 +49,9 @@ struct Args {
     /// Print the active effects, the keys that switch them on, their cost, and the pair that limits the time step
     #[arg(long)]
     explain: bool,
+    /// Print every key of a scene, with type, unit, range, default, meaning and an example
+    #[arg(long, exclusive = true)]
+    keys: bool,
     /// Check the scene and its inputs without running
     #[arg(long)]
     check: bool,
@@ -70,8 +73,8 @@ struct Args {
 
 fn main() -> ExitCode {
     cli::run("dem-run", |args: Args| {
-        let scene = args.scene.to_string();
-        dem_run(args).map_err(|e| in_scene(e, scene))
+        let Some(scene) = args.scene.clone() else { return keys(&args.output) };
+        dem_run(args, &scene).map_err(|e| in_scene(e, scene.to_string()))
     })
 }
 
@@ -80,11 +83,19 @@ fn in_scene(error: anyhow::Error, scene: String) -> anyhow::Error {
     if error.chain().any(|cause| cause.is::<SceneSetupError>()) { error.context(scene) } else { error }
 }
 
-fn dem_run(args: Args) -> anyhow::Result<Report> {
-    Source::one_stdin([&args.scene].into_iter().chain(&args.inputs).chain(&args.resume))?;
-    misplaced::scene(&args.scene)?;
-    misplaced::inputs(&args.scene, &args.inputs)?;
-    let scene = read_scene(&args)?;
+/// Prints the reference of scenes.
+fn keys(output: &Output) -> anyhow::Result<Report> {
+    let mut out = output.open_text()?;
+    out.write_all(scene::keys::reference().as_bytes()).context("--keys")?;
+    out.commit()?;
+    Ok(Report::new(format!("{} keys; docs/reference/scene.md explains them", scene::keys::rows().len())))
+}
+
+fn dem_run(args: Args, scene: &Source) -> anyhow::Result<Report> {
+    Source::one_stdin([scene].into_iter().chain(&args.inputs).chain(&args.resume))?;
+    misplaced::scene(scene)?;
+    misplaced::inputs(scene, &args.inputs)?;
+    let scene = read_scene(&args, scene)?;
     cli::also_reads(scene.files())?;
     if args.explain || args.check {
         without_run(&args)?;
@@ -204,11 +215,11 @@ fn written(error: RunError, args: &Args) -> anyhow::Error {
     }
 }
 
-fn read_scene(args: &Args) -> anyhow::Result<Scene> {
+fn read_scene(args: &Args, file: &Source) -> anyhow::Result<Scene> {
     let mut overrides = args.set.clone();
     overrides.extend(args.until.map(|s| format!("time.until={s:?}")));
-    let folder = args.scene.path().and_then(Path::parent).unwrap_or(Path::new(""));
-    let (name, text) = (args.scene.to_string(), args.scene.read_text()?);
+    let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
+    let (name, text) = (file.to_string(), file.read_text()?);
     let wrong = |error: SceneError| match error {
         SceneError::Override { .. } => cli::usage(error.to_string()),
         other => other.into(),
@@ -237,8 +248,7 @@ fn explain(args: &Args, scene: &Scene, plan: Plan, resume: Option<&Checkpoint>) 
     if args.explain {
         let mut out = args.output.open_text()?;
         for line in explained.text.lines() {
-            std::io::Write::write_all(&mut out, format!("{}\n", cli::escaped(line)).as_bytes())
-                .context("--explain")?;
+            writeln!(out, "{}", cli::escaped(line)).context("--explain")?;
         }
         out.commit()?;
     }

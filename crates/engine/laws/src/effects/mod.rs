@@ -46,7 +46,7 @@ pub use pair::{Pair, tangential_ratio};
 pub use registry::{DESCRIPTIONS, active, keys, models, without};
 pub use rolling_resistance::RollingResistance;
 pub use sliding_friction::{Coefficient, SlidingFriction};
-pub use table::tables;
+pub use table::table;
 pub use twisting_resistance::TwistingResistance;
 pub use walton_braun::WaltonBraun;
 pub use weakening::Weakening;

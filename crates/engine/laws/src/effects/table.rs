@@ -1,30 +1,19 @@
-//! The effects and their keys as tables for people: docs/reference/scene.md holds them, and a test compares.
+//! The effects as a table for people: docs/reference/scene.md holds it, and a test compares.
 
-use super::{DESCRIPTIONS, Description, Key, keys, models};
+use super::{DESCRIPTIONS, Description};
 use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
 use alloc::{format, vec};
 use core::fmt::Write;
 
-/// Both tables in Markdown: a row for each effect, and one for each number.
-pub fn tables() -> String {
+/// The table in Markdown: a row for each effect.
+pub fn table() -> String {
     let mut out = String::from("| effect | asked for by | what it does | history [B] |\n|---|---|---|---|\n");
     for effect in DESCRIPTIONS {
         let bytes = size_of::<f64>() * effect.columns();
         // Writing to a string does not fail.
         let _ = writeln!(out, "| {} | {} | {} | {bytes} |", effect.name, asked_by(effect), what(effect));
-    }
-    out.push_str("\n| key | unit | values | default | meaning |\n|---|---|---|---|---|\n");
-    for (key, values) in models() {
-        let default = DESCRIPTIONS.iter().filter_map(|d| d.model).find(|m| m.key == key && m.default);
-        let default = default.map_or("none".to_owned(), |m| format!("\"{}\"", m.value));
-        let values = values.iter().map(|v| format!("\"{v}\"")).collect::<Vec<_>>().join(", ");
-        let _ = writeln!(out, "| `{key}` | | {values} | {default} | which model |");
-    }
-    for key in keys() {
-        let unit = if key.unit.is_empty() { "–" } else { key.unit };
-        let _ = writeln!(out, "| `{}` | {unit} | {} | {} | {} |", key.name, key.range, default(key), key.doc);
     }
     out
 }
@@ -49,12 +38,4 @@ fn what(effect: &Description) -> String {
     let precision = (!effect.every_precision).then(|| "double precision only".to_owned());
     let more: Vec<String> = kept.chain(needs).chain(precision).collect();
     [vec![effect.doc.to_owned()], more].concat().join("; ")
-}
-
-fn default(key: &Key) -> &'static str {
-    let laws = DESCRIPTIONS.iter().filter(|d| d.normal.is_some());
-    match key.required && laws.flat_map(|d| d.keys).any(|k| k.name == key.name) {
-        true => "required",
-        false => "absent",
-    }
 }

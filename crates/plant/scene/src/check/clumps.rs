@@ -2,7 +2,7 @@
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Clump, ClumpMass, ClumpMoments, Diameter, GrainKeys, SceneKeys};
+use crate::keys::{Clump, ClumpMass, ClumpMoments, GrainKeys, SceneKeys};
 
 /// Whether every size names its material.
 fn has_materials(sizes: Option<&toml::Value>) -> bool {
@@ -14,15 +14,14 @@ impl Check<'_> {
     /// Spheres have material and diameter, clumps a name and perhaps a scale.
     pub(super) fn particle(&self, entry: &str, given: &GrainKeys) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
-        let diameter = given.diameter != Diameter::default();
-        let material = !given.material.is_empty();
+        let (diameter, material) = (given.diameter.is_some(), given.material.is_some());
         if given.clump.is_some() {
             let keys = [("material", material), ("diameter", diameter), ("sizes", given.sizes.is_some())];
             if let Some((name, _)) = keys.iter().find(|k| k.1) {
                 let cure = "take it out, or use scale";
                 return Err(self.wrong(&key(name), "(given)", "a clump has its own", cure));
             }
-            return given.scale.map_or(Ok(()), |range| self.range(&key("scale"), range, ""));
+            return Ok(());
         }
         let kinds = [("diameter", diameter), ("sizes", given.sizes.is_some())];
         if !(diameter || given.sizes.is_some()) {
@@ -51,34 +50,22 @@ impl Check<'_> {
             let cure = "use diameter, or add clump = \"…\"";
             return Err(self.wrong(&key("scale"), "(given)", "only clumps have a scale", cure));
         }
-        if !diameter {
-            return Ok(());
-        }
-        self.range(&key("diameter"), given.diameter, "m")?;
-        if given.diameter.high > 100.0 {
-            let value = format!("{} m", given.diameter.high);
+        if let Some(diameter) = given.diameter.filter(|diameter| diameter.high > 100.0) {
+            let value = format!("{} m", diameter.high);
             let cure = "lengths are in metres: 5 mm is 0.005";
             return Err(self.wrong(&key("diameter"), value, "is larger than 100 m", cure));
         }
         Ok(())
     }
 
-    /// `[[clump]]` and `[[body]]`.
+    /// `[[clump]]`.
     pub(super) fn clumps(&self, m: &SceneKeys) -> Result<()> {
         for (i, c) in m.clump.iter().enumerate() {
             if c.name.is_empty() || m.clump[..i].iter().any(|o| o.name == c.name) {
                 let (key, value) = (format!("clump.{i}.name"), format!("\"{}\"", c.name));
                 return Err(self.wrong(&key, value, "is not a unique name", "name each clump differently"));
             }
-            self.name(&format!("clump.{i}.name"), &c.name)?;
             self.clump(&format!("clump.{i}"), c)?;
-        }
-        for (i, b) in m.body.iter().enumerate() {
-            let key = |k: &str| format!("body.{i}.{k}");
-            self.finite(&key("position"), &b.position, "m")?;
-            self.finite(&key("velocity"), &b.velocity, "m/s")?;
-            self.finite(&key("spin"), &b.spin, "rad/s")?;
-            self.positive(&key("scale"), b.scale, "")?;
         }
         Ok(())
     }
@@ -89,9 +76,6 @@ impl Check<'_> {
             let why = "gives the mass, which mesh and mass = \"sum\" give, too";
             return Err(self.wrong(key, "(given)", why, "leave one of them out"));
         }
-        self.positive(&format!("{key}.volume"), m.volume, "m³")?;
-        self.finite(&format!("{key}.centre"), &m.centre, "m")?;
-        self.finite(&format!("{key}.inertia"), &m.inertia, "m⁵")?;
         let values = m.tensor().symmetric_eigenvalues();
         if !(values.min() > 0.0 && values.sum() > 2.0 * values.max()) {
             let value = format!("{:?} m⁵", m.inertia);
@@ -105,8 +89,6 @@ impl Check<'_> {
         let key = |k: &str| format!("{entry}.{k}");
         let kinds = [("spheres", c.spheres.is_some()), ("mesh", c.mesh.is_some())];
         self.one_of(entry, &kinds)?;
-        self.positive(&key("scale"), c.scale, "")?;
-        self.positive(&key("vertex_radius"), c.vertex_radius, "m")?;
         if c.mesh.is_some() != c.vertex_radius.is_some() {
             let why = "vertex_radius goes with mesh, and mesh with vertex_radius";
             return Err(self.wrong(entry, "(one of them)", why, "give both, or spheres"));
@@ -129,7 +111,6 @@ impl Check<'_> {
             self.moments(&key("moments"), c, moments)?;
         }
         for (k, sphere) in spheres.iter().enumerate() {
-            self.finite(&key(&format!("spheres.{k}")), &sphere[..3], "m")?;
             self.positive(&key(&format!("spheres.{k}")), sphere[3], "m")?;
         }
         Ok(())

@@ -24,10 +24,6 @@ impl Check<'_> {
                 let value = format!("\"{}\"", material.name);
                 return Err(self.wrong(&key("name"), value, "is not a name", "name the material"));
             }
-            self.name(&key("name"), &material.name)?;
-            self.positive(&key("density"), material.density, "kg/m³")?;
-            self.positive(&key("young"), material.young, "Pa")?;
-            self.poisson(&key("poisson"), material.poisson)?;
         }
         Ok(())
     }

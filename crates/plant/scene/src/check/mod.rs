@@ -1,7 +1,7 @@
 //! Checks of the values of a scene that can be judged without files: ranges, keys that exclude each other.
 //!
-//! [`Check`] holds the rules that many keys share (above 0, within a range, one of several keys); each file here checks the tables of one
-//! kind. A refused value names key, value, unit and cure ([`crate::error::ValueError`]). Uses the text for places in it, and the keys.
+//! [`Check`] holds the rules that many keys share (above 0, within a range, one of several keys). Each key names its range where it is declared
+//! ([`crate::keys`]); each file here checks how the keys of one kind of table go together. A refused value names key, value, unit and cure ([`crate::error::ValueError`]). Uses the text for places in it, and the keys.
 
 mod bonds;
 mod calculation;
@@ -14,7 +14,7 @@ mod servo;
 mod walls;
 
 use crate::error::{Result, SceneError, ValueError, nearest, shown};
-use crate::keys::{Diameter, SceneKeys};
+use crate::keys::{Key, Range, SceneKeys, Table};
 use crate::text::Text;
 use dem::setup::Material;
 use std::fmt::Display;
@@ -77,15 +77,35 @@ impl Check<'_> {
         Err(self.wrong(key, format!("{value:?} {unit}"), "must be finite", "give numbers"))
     }
 
-    /// Two numbers above zero, the smaller first.
-    pub(crate) fn range(&self, key: &str, range: Diameter, unit: &str) -> Result<()> {
-        self.positive(key, range.low, unit)?;
-        self.positive(key, range.high, unit)?;
-        if range.low <= range.high {
-            return Ok(());
+    /// The numbers of a key, in the range that it names.
+    pub(crate) fn range(&self, at: &str, key: &Key, numbers: &[f64]) -> Result<()> {
+        let each =
+            |low: f64, high: f64| numbers.iter().try_for_each(|v| self.within(at, *v, low, high, key.unit));
+        let positive = || numbers.iter().try_for_each(|v| self.positive(at, *v, key.unit));
+        match key.range {
+            Range::Any | Range::Name => Ok(()),
+            Range::Finite => self.finite(at, numbers, key.unit),
+            Range::Positive => positive(),
+            Range::FromZero => each(0.0, dem::magnitudes(key.unit)[1]),
+            Range::Within(low, high) => each(low, high),
+            Range::UpTo(high) => positive().and_then(|()| each(0.0, high)),
+            Range::Poisson => numbers.iter().try_for_each(|v| self.poisson(at, *v)),
+            Range::Pair => {
+                positive()?;
+                match numbers {
+                    [low, high] if low > high => {
+                        let value = format!("[{low}, {high}] {}", key.unit);
+                        Err(self.wrong(
+                            at,
+                            value.trim_end(),
+                            "the range is upside down",
+                            "give [smallest, largest]",
+                        ))
+                    }
+                    _ => Ok(()),
+                }
+            }
         }
-        let value = format!("[{}, {}] {unit}", range.low, range.high);
-        Err(self.wrong(key, value.trim_end(), "the range is upside down", "give [smallest, largest]"))
     }
 
     /// One and only one of several keys.
@@ -137,14 +157,14 @@ impl Check<'_> {
 
     /// Every value of a scene that can be judged by itself.
     pub(crate) fn keys(&self, m: &SceneKeys) -> Result<()> {
+        m.check_keys(self, "")?;
         self.calculation(m)?;
         self.materials(m)?;
         self.contacts(m)?;
         self.bonds(m)?;
         self.clumps(m)?;
         self.particles(m)?;
-        self.walls(m)?;
-        self.zones(m)
+        self.walls(m)
     }
 
     /// Poisson's ratio of a material or of bonds.

@@ -1,11 +1,11 @@
-//! Checks of where particles come from and leave: `[[fill]]`, `[[insert]]`, `[[outlet]]`, `[[inlet]]`.
+//! Checks of where particles come from: `[[particles]]`, `[[fill]]`, `[[insert]]`.
 
 use super::Check;
 use crate::error::Result;
 use crate::keys::{Fill, Insert, SceneKeys};
 
 impl Check<'_> {
-    /// `[[fill]]` and `[[insert]]`.
+    /// `[[particles]]`, `[[fill]]` and `[[insert]]`.
     pub(super) fn particles(&self, m: &SceneKeys) -> Result<()> {
         for (i, p) in m.particles.iter().enumerate() {
             self.lengths(&format!("particles.{i}"), p.scale, p.units.as_deref())?;
@@ -29,7 +29,7 @@ impl Check<'_> {
     fn fill(&self, entry: &str, f: &Fill) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
         self.particle(entry, &f.grains())?;
-        self.amount(entry, f.mass, f.count)?;
+        self.amount(entry, f.count)?;
         let amounts =
             [("mass", f.mass.is_some()), ("count", f.count.is_some()), ("lattice", f.lattice.is_some())];
         self.one_of(entry, &amounts)?;
@@ -38,17 +38,16 @@ impl Check<'_> {
             return Err(self.wrong(&key("cluster"), "(given)", why, cure));
         }
         if f.lattice.is_some()
-            && (f.clump.is_some() || f.sizes.is_some() || f.diameter.low != f.diameter.high)
+            && (f.clump.is_some() || f.diameter.is_none_or(|diameter| diameter.low != diameter.high))
         {
             let (why, cure) = ("a lattice is made of equal spheres", "give one 'diameter'");
             return Err(self.wrong(&key("lattice"), "(given)", why, cure));
         }
-        self.finite(&key("velocity"), &f.velocity, "m/s")
+        Ok(())
     }
 
-    /// `mass` and `count`, where they are given.
-    fn amount(&self, entry: &str, mass: Option<f64>, count: Option<u64>) -> Result<()> {
-        self.positive(&format!("{entry}.mass"), mass, "kg")?;
+    /// `count`, where it is given.
+    fn amount(&self, entry: &str, count: Option<u64>) -> Result<()> {
         match count {
             Some(0) => {
                 let (key, cure) = (format!("{entry}.count"), "give at least 1");
@@ -61,15 +60,11 @@ impl Check<'_> {
     fn insert(&self, entry: &str, f: &Insert) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
         self.particle(entry, &f.grains())?;
-        self.positive(&key("rate"), f.rate, "kg/s")?;
-        self.positive(&key("rate_count"), f.rate_count, "1/s")?;
         self.one_of(entry, &[("rate", f.rate.is_some()), ("rate_count", f.rate_count.is_some())])?;
-        self.amount(entry, f.mass, f.count)?;
+        self.amount(entry, f.count)?;
         if f.mass.is_some() && f.count.is_some() {
             self.one_of(entry, &[("mass", true), ("count", true)])?;
         }
-        self.finite(&key("velocity"), &f.velocity, "m/s")?;
-        self.within(&key("from"), f.from, 0.0, record::LATEST, "s")?;
         self.until(&key("until"), f.until, f.from)?;
         self.repeat(entry, f.repeat, f.from, f.until, f.mass.is_some() || f.count.is_some())?;
         match f.times {
@@ -80,17 +75,5 @@ impl Check<'_> {
             }
             _ => Ok(()),
         }
-    }
-
-    /// `[[outlet]]` and `[[inlet]]`.
-    pub(super) fn zones(&self, m: &SceneKeys) -> Result<()> {
-        for (i, o) in m.outlet.iter().enumerate() {
-            self.positive(&format!("outlet.{i}.length"), o.length.0, "m")?;
-            self.positive(&format!("outlet.{i}.samples"), o.samples, "s")?;
-        }
-        for (i, o) in m.inlet.iter().enumerate() {
-            self.positive(&format!("inlet.{i}.length"), o.length.0, "m")?;
-        }
-        Ok(())
     }
 }

@@ -10,8 +10,6 @@ impl Check<'_> {
         self.direction(&key("direction"), s.direction, "such as [0, 0, -1]")?;
         let of = [("force", s.force.is_some()), ("stress", s.stress.is_some()), ("path", s.path.is_some())];
         self.one_of(&format!("{entry}.servo"), &of)?;
-        self.finite(&key("force"), &[s.force.unwrap_or(0.0)], "N")?;
-        self.finite(&key("stress"), &[s.stress.unwrap_or(0.0)], "Pa")?;
         for (k, value, unit) in [("force", s.force, "N"), ("stress", s.stress, "Pa")] {
             if let Some(value) = value.filter(|value| *value < 0.0) {
                 let why = "pulls, and a wall only pushes";
@@ -20,7 +18,6 @@ impl Check<'_> {
             }
         }
         self.servo_area(entry, s)?;
-        self.positive(&key("speed_limit"), s.speed_limit, "m/s")?;
         if w.cuboid.is_some() && w.faces.as_ref().is_none_or(|f| f.len() != 1) {
             let why = "all faces of the box would follow one direction";
             let cure = "put the face that moves into a separate [[wall]]: faces = [\"z+\"]";
@@ -32,10 +29,6 @@ impl Check<'_> {
     pub(super) fn spring(&self, entry: &str, w: &Wall, s: &Spring) -> Result<()> {
         let key = |k: &str| format!("{entry}.spring.{k}");
         self.direction(&key("direction"), s.direction, "such as [0, 0, 1]")?;
-        self.positive(&key("stiffness"), s.stiffness, "N/m")?;
-        self.within(&key("damping"), s.damping, 0.0, 1e12, "N·s/m")?;
-        self.positive(&key("mass"), s.mass, "kg")?;
-        self.positive(&key("speed_limit"), s.speed_limit, "m/s")?;
         if w.servo.is_some() {
             let why = "a wall follows its servo or moves on its spring";
             return Err(self.wrong(&format!("{entry}.spring"), "(with servo)", why, "take one of them out"));
@@ -51,16 +44,13 @@ impl Check<'_> {
     /// The area that a stress acts on.
     fn servo_area(&self, entry: &str, s: &Servo) -> Result<()> {
         let key = |k: &str| format!("{entry}.servo.{k}");
-        self.positive(&key("area"), s.area, "m²")?;
         for side in s.area_between.iter().flatten() {
-            match side {
-                Side::Length(length) => self.positive(&key("area_between"), *length, "m")?,
-                Side::Walls([a, b]) if a == b => {
-                    let value = format!("[\"{a}\", \"{b}\"]");
-                    let cure = "name the two walls between which the side lies";
-                    return Err(self.wrong(&key("area_between"), value, "names one wall twice", cure));
-                }
-                Side::Walls(_) => {}
+            if let Side::Walls([a, b]) = side
+                && a == b
+            {
+                let value = format!("[\"{a}\", \"{b}\"]");
+                let cure = "name the two walls between which the side lies";
+                return Err(self.wrong(&key("area_between"), value, "names one wall twice", cure));
             }
         }
         if s.area.is_some() && s.area_between.is_some() {

@@ -1,117 +1,97 @@
 //! Bonds between grains.
 
-use super::unit;
-use serde::Deserialize;
+use super::table::{table, words};
 
-/// `[[bond]]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Bond {
-    /// Two names of materials.
-    pub between: [String; 2],
-    /// What it resists.
-    #[serde(default)]
-    pub kind: BondKind,
-    /// Which grains, by their clusters.
-    #[serde(default)]
-    pub clusters: Clusters,
-    /// Largest gap between two surfaces that is bonded [m].
-    #[serde(deserialize_with = "unit::metres")]
-    pub gap: f64,
-    /// When bonds are made [s].
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub at: f64,
-    /// Radius of a bond over the smaller of both particles' [–]; absent: 1.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub radius_ratio: Option<f64>,
-    /// Young's modulus of beams [Pa].
-    #[serde(default, deserialize_with = "unit::pascals")]
-    pub young: Option<f64>,
-    /// Their Poisson's ratio [–], for the shear modulus.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub poisson: Option<f64>,
-    /// Modulus of parallel and contact bonds [Pa].
-    #[serde(default, deserialize_with = "unit::pascals")]
-    pub modulus: Option<f64>,
-    /// Their normal over shear stiffness [–].
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub stiffness_ratio: Option<f64>,
-    /// Normal stiffness of contact bonds [N/m].
-    #[serde(default, deserialize_with = "unit::newtons_a_metre")]
-    pub normal_stiffness: Option<f64>,
-    /// Their shear stiffness [N/m].
-    #[serde(default, deserialize_with = "unit::newtons_a_metre")]
-    pub shear_stiffness: Option<f64>,
-    /// Normal stiffness of parallel bonds per area [Pa/m].
-    #[serde(default, deserialize_with = "unit::pascals_a_metre")]
-    pub normal_stiffness_per_area: Option<f64>,
-    /// Their shear stiffness per area [Pa/m].
-    #[serde(default, deserialize_with = "unit::pascals_a_metre")]
-    pub shear_stiffness_per_area: Option<f64>,
-    /// Share of moments in the stress that breaks a parallel bond [–]; absent: 1.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub moments: Option<f64>,
-    /// Tension at the rim that breaks one [Pa]; absent: none does.
-    #[serde(default, deserialize_with = "unit::pascals")]
-    pub tensile_strength: Option<f64>,
-    /// Shear that breaks one [Pa]; absent: none does.
-    #[serde(default, deserialize_with = "unit::pascals")]
-    pub shear_strength: Option<f64>,
-    /// Tension that breaks a contact bond [N].
-    #[serde(default, deserialize_with = "unit::newtons")]
-    pub tensile_force: Option<f64>,
-    /// Shear that breaks a contact bond [N].
-    #[serde(default, deserialize_with = "unit::newtons")]
-    pub shear_force: Option<f64>,
-    /// Tensile over shear strength [–], instead of one of them.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub strength_ratio: Option<f64>,
-    /// Angle by which pressure adds to the shear strength [rad].
-    #[serde(default, deserialize_with = "unit::radians")]
-    pub friction_angle: Option<f64>,
-    /// Standard deviation of strengths over their mean [–].
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub deviation: Option<f64>,
-    /// Weibull's m of strengths [–].
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub weibull_modulus: Option<f64>,
-    /// Radius of bonds of which strengths are the scale [m].
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub reference_radius: Option<f64>,
-    /// Seed of the strengths that are drawn.
-    pub seed: Option<u64>,
-    /// γ of dashpots beside the springs [–]; absent: none.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub damping: Option<f64>,
-    /// Whether the two are not in contact besides; absent: as its kind has it.
-    pub replaces_contact: Option<bool>,
+/// Largest angle of friction: tan φ is finite [rad].
+const STEEPEST: f64 = 1.55;
+
+table! {
+    /// `[[bond]]`
+    Bond section {
+        /// Materials of the two grains.
+        between: [String; 2] = required, "", Any, "[\"*\", \"*\"]";
+        /// What it resists; see above.
+        kind: BondKind = absent("\"beam\""), "", Any, "\"parallel\"";
+        /// Which grains, see [clusters](#clusters).
+        clusters: Clusters = absent("\"same\""), "", Any, "\"any\"";
+        /// Largest gap between the surfaces of two grains that is bonded.
+        gap: f64 = required, "m", Within(0.0, 100.0), "1e-4";
+        /// When the bonds are made.
+        at: f64 = absent("0"), "s", FromZero, "0.1";
+        /// Beam, parallel: r over the radius of the smaller grain.
+        radius_ratio: Option<f64> = absent("1"), "", Positive, "1";
+        /// Young's modulus E of a beam.
+        young: Option<f64> = absent("required for beam"), "Pa", Positive, "1e9";
+        /// Poisson's ratio of a beam.
+        poisson: Option<f64> = absent("required for beam"), "", Poisson, "0.25";
+        /// Parallel: k_n = E/(r_i + r_j) per area; contact: k_n = 2 E (r_i + r_j).
+        modulus: Option<f64> = absent("–"), "Pa", Positive, "1e9";
+        /// k_n/k_s.
+        stiffness_ratio: Option<f64> = absent("with `modulus`"), "", Positive, "2.5";
+        /// Parallel: k_n, instead of `modulus`.
+        normal_stiffness_per_area: Option<f64> = absent("–"), "Pa/m", Positive, "1e12";
+        /// Parallel: k_s.
+        shear_stiffness_per_area: Option<f64> = absent("–"), "Pa/m", Positive, "4e11";
+        /// Contact: k_n, instead of `modulus`.
+        normal_stiffness: Option<f64> = absent("–"), "N/m", Positive, "1e6";
+        /// Contact: k_s.
+        shear_stiffness: Option<f64> = absent("–"), "N/m", Positive, "4e5";
+        /// Parallel: share β of the moments in the stress.
+        moments: Option<f64> = absent("1"), "", Within(0.0, 1.0), "0.5";
+        /// σ_c.
+        tensile_strength: Option<f64> = absent("unbreakable"), "Pa", FromZero, "1e6";
+        /// τ_c.
+        shear_strength: Option<f64> = absent("unbreakable"), "Pa", FromZero, "3e6";
+        /// Contact: tensile strength as a force.
+        tensile_force: Option<f64> = absent("–"), "N", FromZero, "10";
+        /// Contact: shear strength as a force.
+        shear_force: Option<f64> = absent("–"), "N", FromZero, "30";
+        /// Tensile over shear strength, instead of one of them.
+        strength_ratio: Option<f64> = absent("–"), "", Positive, "0.3";
+        /// φ: pressure adds to the shear strength.
+        friction_angle: Option<f64> = absent("0"), "rad", Within(0.0, STEEPEST), "\"30 deg\"";
+        /// Standard deviation of the strengths over their mean (normal distribution).
+        deviation: Option<f64> = absent("0"), "", Within(0.0, 1.0), "0.1";
+        /// m of the strengths (Weibull distribution); the strengths are its scale: 63.2 % of the bonds are weaker.
+        weibull_modulus: Option<f64> = absent("–"), "", Within(0.1, 1e4), "3";
+        /// r₀: bonds of another radius have (r₀/r)^(3/m) times the strength.
+        reference_radius: Option<f64> = absent("no size effect"), "m", Positive, "0.01";
+        /// Seed of the strengths.
+        seed: Option<u64> = absent("0"), "", Any, "7";
+        /// γ of dashpots; 2 is critical damping.
+        damping: Option<f64> = absent("0"), "", Within(0.0, 2.0), "0.1";
+        /// Whether the two grains are not in contact besides, as long as the bond holds.
+        replaces_contact: Option<bool> = absent("true for contact"), "", Any, "true";
+    }
 }
 
 /// Keys of a `[[bond]]` of which either has its strengths drawn.
 pub const DRAWN: [&str; 2] = ["deviation", "weibull_modulus"];
 
-/// What a bond resists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum BondKind {
-    /// A beam from centre to centre.
-    #[default]
-    Beam,
-    /// Cement between the surfaces.
-    Parallel,
-    /// Glue at a point.
-    Contact,
+words! {
+    /// What a bond resists.
+    #[derive(Default)]
+    BondKind {
+        /// A beam from centre to centre.
+        #[default]
+        Beam "beam",
+        /// Cement between the surfaces.
+        Parallel "parallel",
+        /// Glue at a point.
+        Contact "contact",
+    }
 }
 
-/// Which grains are bonded, by their clusters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Clusters {
-    /// Of one cluster, or both of none.
-    #[default]
-    Same,
-    /// Of two clusters.
-    Different,
-    /// All.
-    Any,
+words! {
+    /// Which grains are bonded, by their clusters.
+    #[derive(Default)]
+    Clusters {
+        /// Of one cluster, or both of none.
+        #[default]
+        Same "same",
+        /// Of two clusters.
+        Different "different",
+        /// All.
+        Any "any",
+    }
 }

@@ -1,73 +1,73 @@
 //! How a scene is calculated and written, and the fluid around its particles.
 
-use super::unit;
-use serde::Deserialize;
+use super::table::{table, words};
 
-/// Precision in which contacts are computed; positions and velocities are always double.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Arithmetic {
-    /// Double.
-    #[default]
-    F64,
-    /// Single in contacts.
-    Mixed,
-    /// Single in contacts, their history, and sums of forces.
-    F32,
+/// Whole numbers up to here are exact.
+const EXACT: f64 = 9e15;
+
+words! {
+    /// Precision in which contacts are computed; positions and velocities are always double.
+    #[derive(Default)]
+    Arithmetic {
+        /// Double.
+        #[default]
+        F64 "f64",
+        /// Single in contacts.
+        Mixed "mixed",
+        /// Single in contacts, their history, and sums of forces.
+        F32 "f32",
+    }
 }
 
-/// `[time]`
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Time {
-    /// End of the run [s]; may come from `--until`.
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub until: Option<f64>,
-    /// Mean unbalanced over mean contact force [–] at which the run ends before `until`.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub until_unbalanced: Option<f64>,
-    /// Kinetic energy [J] at which it does.
-    #[serde(default, deserialize_with = "unit::joules")]
-    pub until_kinetic: Option<f64>,
-    /// Step.
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub dt: OrAuto,
-    /// Share of the critical step when `dt` is "auto" [–]; absent: [`SAFETY`], or what `accuracy` needs.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub safety: Option<f64>,
-    /// Largest error of an impact, for which the step is chosen [–].
-    pub accuracy: Option<Accuracy>,
-    /// Share by which the step is made shorter than the other keys say [–]: contacts then begin at another phase of it.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub shorten: Option<f64>,
+table! {
+    /// `[time]`
+    #[derive(Default)]
+    Time section {
+        /// End of the run.
+        until: Option<f64> = absent("required, here or as `--until`"), "s", UpTo(record::LATEST), "1";
+        /// End the run earlier, when the mean unbalanced force is at most this share of the mean contact force; see below.
+        until_unbalanced: Option<f64> = absent("none"), "", Positive, "1e-5";
+        /// End the run earlier, when the kinetic energy of all grains is at most this.
+        until_kinetic: Option<f64> = absent("none"), "J", Positive, "1e-6";
+        /// Time step.
+        dt: OrAuto = absent("\"auto\""), "s", Positive, "1e-5";
+        /// With "auto": time step over the critical step; the default is 0.2 if no contact has friction, and one of a linear law has
+        /// `normal_damping`, or `restitution` above 0.9 with `contacts = "sampled"` or `law = "walton_braun"`.
+        safety: Option<f64> = absent("0.5"), "", Within(1e-6, 1.0), "0.5";
+        /// With "auto": largest error of an impact, such as "1%"; sets `safety` from measured curves.
+        accuracy: Option<Accuracy> = absent("none"), "", Within(1e-9, 1.0), "\"1%\"";
+        /// Share by which the step is made shorter than that; contacts then begin at another phase of the step.
+        shorten: Option<f64> = absent("0"), "", Within(0.0, 0.5), "0.1";
+        /// The contacts of two bodies that touch at several places (a grain on a wall of spheres, a clump): act as one contact where they are
+        /// neighbours, each dashpot for the mass that it moves; or each by itself, as other programs do.
+        patch: Patches = absent("\"shared\""), "", Any, "\"plain\"";
+        /// What a kick of one step counts: the force at its instant, or its mean over the part of the step in which the two touch.
+        contacts: Sampling = absent("\"averaged\""), "", Any, "\"sampled\"";
+    }
+}
+
+words! {
+    /// How the contacts of two bodies act together: a grain with the spheres of a wall, a clump with a wall, another clump or a grain.
+    #[derive(Default)]
+    Patches {
+        /// Neighbouring contacts as one, and each dashpot for the mass that it moves.
+        #[default]
+        Shared "shared",
+        /// Each by itself, for the mass of the whole bodies.
+        Plain "plain",
+    }
+}
+
+words! {
     /// Which part of a step the force of a contact stands for.
-    #[serde(default)]
-    pub contacts: Sampling,
-    /// How the contacts of two bodies act together.
-    #[serde(default)]
-    pub patch: Patches,
-}
-
-/// How the contacts of two bodies act together: a grain with the spheres of a wall, a clump with a wall, another clump or a grain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Patches {
-    /// Neighbouring contacts as one, and each dashpot for the mass that it moves.
-    #[default]
-    Shared,
-    /// Each by itself, for the mass of the whole bodies.
-    Plain,
-}
-
-/// Which part of a step the force of a contact stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Sampling {
-    /// The part in which both touch.
-    #[default]
-    Averaged,
-    /// All of it, where both touch at its instant.
-    Sampled,
+    #[derive(Default)]
+    Sampling {
+        /// The part in which both touch.
+        #[default]
+        Averaged "averaged",
+        /// All of it, where both touch at its instant.
+        Sampled "sampled",
+    }
 }
 
 impl Sampling {
@@ -81,18 +81,13 @@ impl Sampling {
     }
 }
 
-/// `[local_damping]`
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LocalDamping {
-    /// α [–].
-    #[serde(default = "usual_factor", deserialize_with = "unit::plain")]
-    pub factor: f64,
-}
-
-/// Cundall's α.
-fn usual_factor() -> f64 {
-    0.7
+table! {
+    /// `[local_damping]`
+    #[derive(Copy)]
+    LocalDamping section {
+        /// α: share of the unbalanced force that acts against the motion (Cundall's is 0.7); above 0, below 1.
+        factor: f64 = default(0.7), "", Any, "0.5";
+    }
 }
 
 /// A share: `"1%"`, or 0.01.
@@ -103,28 +98,23 @@ pub struct Accuracy(pub f64);
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OrAuto(pub Option<f64>);
 
-/// `[output]`
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Output {
-    /// Time between frames; absent: a hundredth of the run.
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub every: Option<Every>,
-    /// Time between checkpoints [s]; absent: one at the end.
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub checkpoint: Option<f64>,
-    /// Whether the force on each wall is written with each frame; absent: only if a wall has a servo, whose force is always written.
-    #[serde(default)]
-    pub wall_forces: Option<bool>,
-    /// Whether the energy ledger is kept and written.
-    #[serde(default)]
-    pub energy: bool,
-    /// Whether contacts are written with each frame.
-    #[serde(default)]
-    pub contacts: bool,
-    /// Type of the numbers in frames.
-    #[serde(default)]
-    pub precision: Precision,
+table! {
+    /// `[output]`
+    #[derive(Default)]
+    Output section {
+        /// Time between frames; "step" writes every step.
+        every: Option<Every> = absent("`until`/100"), "s", Positive, "\"20 ms\"";
+        /// Time between checkpoints.
+        checkpoint: Option<f64> = absent("one at the end"), "s", Positive, "0.5";
+        /// Compute the energy ledger and write it with every frame.
+        energy: bool = absent("false"), "", Any, "true";
+        /// Write a row for each contact with every frame (topic `/contacts`).
+        contacts: bool = absent("false"), "", Any, "true";
+        /// Write the force on each wall with every frame; always on when a wall has a `servo`, where `false` prints a warning.
+        wall_forces: Option<bool> = absent("false"), "", Any, "true";
+        /// Type of the numbers in frames.
+        precision: Precision = absent("\"f64\""), "", Any, "\"f32\"";
+    }
 }
 
 /// Time between frames.
@@ -136,77 +126,64 @@ pub enum Every {
     Given(f64),
 }
 
-/// Type of the numbers in frames; checkpoints and crossings are always exact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Precision {
-    /// Double.
-    #[default]
-    F64,
-    /// Single.
-    F32,
+words! {
+    /// Type of the numbers in frames; checkpoints and crossings are always exact.
+    #[derive(Default)]
+    Precision {
+        /// Double.
+        #[default]
+        F64 "f64",
+        /// Single.
+        F32 "f32",
+    }
 }
 
-/// `[sleep]`
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Sleep {
-    /// Speed of the surface below which a particle is at rest [m/s].
-    #[serde(deserialize_with = "unit::metres_a_second")]
-    pub speed: f64,
-    /// How long it must have been at rest [s].
-    #[serde(default = "sleep_time", deserialize_with = "unit::seconds")]
-    pub time: f64,
-    /// Force that wakes it, over its weight [–].
-    #[serde(default = "sleep_wake", deserialize_with = "unit::plain")]
-    pub wake: f64,
+table! {
+    /// `[sleep]`
+    #[derive(Copy)]
+    Sleep section {
+        /// A particle falls asleep when the speed of its surface has stayed below this.
+        speed: f64 = required, "m/s", Positive, "0.01";
+        /// How long the speed must have stayed below.
+        time: f64 = default(0.02), "s", Positive, "\"50 ms\"";
+        /// Largest acceleration of a particle that falls asleep, as a share of g; less than 1.
+        wake: f64 = default(0.1), "", Any, "0.2";
+    }
 }
 
-fn sleep_time() -> f64 {
-    0.02
+table! {
+    /// `[drag]`
+    Drag section {
+        /// How drag depends on speed.
+        law: DragLaw = required, "", Any, "\"stokes\"";
+        /// Dynamic viscosity of the fluid.
+        viscosity: f64 = required, "Pa·s", Positive, "1.8e-5";
+        /// Density of the fluid; "schiller-naumann" and `buoyancy` need it.
+        density: Option<f64> = absent("–"), "kg/m³", Positive, "1.2";
+        /// Velocity of the fluid.
+        velocity: [f64; 3] = absent("0"), "m/s", Finite, "[0, 0, 1]";
+        /// Subtract the weight of the displaced fluid.
+        buoyancy: bool = absent("false"), "", Any, "true";
+    }
 }
 
-fn sleep_wake() -> f64 {
-    0.1
+words! {
+    /// Law of drag.
+    DragLaw {
+        /// Slow.
+        Stokes "stokes",
+        /// Up to Re = 2·10⁵.
+        SchillerNaumann "schiller-naumann",
+    }
 }
 
-/// `[drag]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Drag {
-    /// How drag depends on speed.
-    pub law: DragLaw,
-    /// Viscosity of the fluid [Pa·s].
-    #[serde(deserialize_with = "unit::pascal_seconds")]
-    pub viscosity: f64,
-    /// Density of the fluid [kg/m³]; "stokes" without buoyancy needs none.
-    #[serde(default, deserialize_with = "unit::density")]
-    pub density: Option<f64>,
-    /// Velocity of the fluid [m/s].
-    #[serde(default, deserialize_with = "unit::metres_a_second")]
-    pub velocity: [f64; 3],
-    /// Whether particles are lighter by the fluid that they displace.
-    #[serde(default)]
-    pub buoyancy: bool,
-}
-
-/// Law of drag.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DragLaw {
-    /// Slow.
-    Stokes,
-    /// Up to Re = 2·10⁵.
-    SchillerNaumann,
-}
-
-/// `[neighbours]`
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Neighbours {
-    /// Margin of the neighbour lists [m]; absent: chosen by the program.
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub skin: Option<f64>,
+table! {
+    /// `[neighbours]`
+    #[derive(Default)]
+    Neighbours section {
+        /// Slack of the neighbour lists, one for all particles.
+        skin: Option<f64> = absent("chosen"), "m", Positive, "\"1 mm\"";
+    }
 }
 
 /// What becomes of a grain that goes back through all of its zone: `true`, `"remove"` or `false`.
@@ -239,24 +216,25 @@ impl Guards {
     }
 }
 
-/// `[guards]`
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Guards {
-    /// Largest overlap, as a share of the smaller radius [–].
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub overlap: Option<f64>,
-    /// Largest motion in one step, as a share of the radius [–].
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub motion: Option<f64>,
-    /// What becomes of a grain of an [[inlet]] that goes back through all of its zone; absent: it stops the run.
-    pub zones: Option<BackThroughZone>,
-    /// Largest energy that the time step may make, as a share of the energy that was exchanged and moves [–]; absent: [`Sampling::most_energy`] in a run that keeps the ledger anyway.
-    pub energy: Option<EnergyGuard>,
-    /// Most steps of a run; absent: [`MOST_STEPS`].
-    pub steps: Option<f64>,
-    /// Most frames, and most checkpoints, of a run; absent: [`MOST_FRAMES`].
-    pub frames: Option<f64>,
+table! {
+    /// `[guards]`
+    #[derive(Default)]
+    Guards section {
+        /// Largest overlap, as a share of the smaller radius.
+        overlap: Option<f64> = absent("0.25"), "", Positive, "0.25";
+        /// Largest motion in one step, as a share of the radius.
+        motion: Option<f64> = absent("0.25"), "", Positive, "0.25";
+        /// Stop when a grain of an `[[inlet]]` goes back through its whole zone; "remove" takes it out and counts it
+        /// ([run.md](../how-to/run.md#guards)).
+        zones: Option<BackThroughZone> = absent("true"), "", Any, "\"remove\"";
+        /// Largest energy that the time step may create, as a share of the energy exchanged plus the largest kinetic and elastic energy so far;
+        /// false: no limit.
+        energy: Option<EnergyGuard> = absent("0.02 (0.05 with `contacts = \"sampled\"`) with the energy ledger, else off"), "", Positive, "0.02";
+        /// Refuse a run of more steps.
+        steps: Option<f64> = absent("1e12"), "", Within(1.0, EXACT), "1e12";
+        /// Refuse a run of more frames, or of more checkpoints.
+        frames: Option<f64> = absent("1e7"), "", Within(1.0, EXACT), "1e7";
+    }
 }
 
 /// Steps beyond which a run is taken for a typing error.

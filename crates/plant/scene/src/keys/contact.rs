@@ -1,24 +1,20 @@
 //! Materials, and what they do to each other.
 
-use super::unit;
+use super::table::table;
 use dem::setup::ContactLaw;
-use serde::Deserialize;
 
-/// `[[material]]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Material {
-    /// Name.
-    pub name: String,
-    /// Density [kg/m³]; walls need none.
-    #[serde(default, deserialize_with = "unit::density")]
-    pub density: Option<f64>,
-    /// Young's modulus [Pa].
-    #[serde(deserialize_with = "unit::pascals")]
-    pub young: f64,
-    /// Poisson's ratio [–].
-    #[serde(deserialize_with = "unit::plain")]
-    pub poisson: f64,
+table! {
+    /// `[[material]]`
+    Material section {
+        /// Name.
+        name: String = required, "", Name, "\"glass\"";
+        /// Density; only grains need it.
+        density: Option<f64> = absent("–"), "kg/m³", Positive, "2500";
+        /// Young's modulus.
+        young: f64 = required, "Pa", Positive, "1e7";
+        /// Poisson's ratio.
+        poisson: f64 = required, "", Poisson, "0.25";
+    }
 }
 
 /// `[[contact]]`

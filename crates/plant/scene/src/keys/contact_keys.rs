@@ -1,13 +1,13 @@
 //! How a `[[contact]]` is read: its keys are those of the engine's effects.
 
 use super::Contact;
-use super::unit::{self, Seed};
-use dem::effects::{NORMAL_DAMPING, RESTITUTION, keys, models};
+use super::sections::Row;
+use super::table::{OneOf, REQUIRED, Shape};
+use super::value::{In, KeyUnit, KeyValue, begins_as_number, quoted, unknown_word};
+use dem::effects::{DESCRIPTIONS, Key, NORMAL_DAMPING, RESTITUTION, keys, models};
 use dem::setup::ContactLaw;
-use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Unexpected, Visitor};
-use serde::{Deserialize, de};
+use serde::de::{self, DeserializeSeed, Deserializer, Error, MapAccess, Unexpected, Visitor};
 use std::fmt;
-use std::marker::PhantomData;
 use std::sync::LazyLock;
 
 /// Keys of a `[[contact]]` that are not the engine's.
@@ -36,13 +36,67 @@ fn unit_of(key: &str) -> &'static str {
     keys().find(|k| k.name == key).map_or("", |k| k.unit)
 }
 
-/// Reads a number, or text with a unit.
-fn number(unit: &'static str) -> Seed<f64> {
-    Seed(unit::of(unit), PhantomData)
+/// The keys as people read about them.
+fn rows() -> Vec<Row> {
+    let text = |name: &str, kind: &str, default: &str, doc: &str, example: &str| Row {
+        name: name.to_owned(),
+        kind: kind.to_owned(),
+        unit: "",
+        range: String::new(),
+        default: default.to_owned(),
+        doc: doc.to_owned(),
+        example: example.to_owned(),
+        table: None,
+    };
+    let model = |(key, values): (&str, Vec<&str>)| {
+        let default = DESCRIPTIONS.iter().filter_map(|d| d.model).find(|m| m.key == key && m.default);
+        let default = default.map_or("none".to_owned(), |m| format!("\"{}\"", m.value));
+        let example = format!("\"{}\"", values.last().copied().unwrap_or_default());
+        text(key, &quoted(values.iter().copied()), &default, "Which model", &example)
+    };
+    let number = |key: &Key| {
+        let laws = DESCRIPTIONS.iter().filter(|d| d.normal.is_some());
+        // A table that stands instead of a number has all of its keys.
+        let required =
+            key.name.contains('.') || key.required && laws.flat_map(|d| d.keys).any(|k| k.name == key.name);
+        let default = if required { REQUIRED } else { "absent" };
+        Row {
+            unit: key.unit,
+            range: key.range.to_string(),
+            ..text(key.name, "number", default, key.doc, key.example)
+        }
+    };
+    let between =
+        text(BETWEEN, "2 names", REQUIRED, "Names of two materials; \"*\" stands for any", "[\"*\", \"*\"]");
+    let speed = "Instead of `stiffness`: the speed of impact at which two of the largest grains store as much as with \"hertz\"";
+    let speed = Row {
+        unit: "m/s",
+        range: "above 0".to_owned(),
+        ..text(CHARACTERISTIC_VELOCITY, "number", "absent", speed, "1")
+    };
+    [between]
+        .into_iter()
+        .chain(models().into_iter().map(model))
+        .chain(keys().map(number))
+        .chain([speed])
+        .collect()
 }
 
-impl<'de> Deserialize<'de> for Contact {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Contact, D::Error> {
+/// Reads a number, or text with a unit.
+fn number(unit: &'static str) -> In<f64> {
+    In::new(KeyUnit::of(unit))
+}
+
+impl KeyValue for Contact {
+    fn kind() -> String {
+        "table".to_owned()
+    }
+
+    fn table() -> Option<Shape> {
+        Some(Shape { name: "Contact", section: true, rows: rows() })
+    }
+
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<Contact, D::Error> {
         from.deserialize_map(ContactVisitor)
     }
 }
@@ -78,29 +132,6 @@ impl<'de> Visitor<'de> for ContactVisitor {
     }
 }
 
-/// A key that is one of these.
-struct OneOf(&'static [&'static str]);
-
-impl<'de> DeserializeSeed<'de> for OneOf {
-    type Value = &'static str;
-
-    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<&'static str, D::Error> {
-        from.deserialize_identifier(self)
-    }
-}
-
-impl Visitor<'_> for OneOf {
-    type Value = &'static str;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a key")
-    }
-
-    fn visit_str<E: Error>(self, key: &str) -> Result<&'static str, E> {
-        self.0.iter().find(|k| **k == key).copied().ok_or_else(|| E::unknown_field(key, self.0))
-    }
-}
-
 /// A model that is one of these.
 struct Named(Vec<&'static str>);
 
@@ -116,15 +147,12 @@ impl Visitor<'_> for Named {
     type Value = &'static str;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "one of \"{}\"", self.0.join("\", \""))
+        write!(f, "one of {}", quoted(self.0.iter().copied()))
     }
 
     fn visit_str<E: Error>(self, name: &str) -> Result<&'static str, E> {
         let known = self.0.iter().find(|k| **k == name).copied();
-        known.ok_or_else(|| {
-            let all = self.0.iter().map(|k| format!("`{k}`")).collect::<Vec<_>>().join(", ");
-            E::custom(format_args!("unknown variant `{name}`, expected one of {all}"))
-        })
+        known.ok_or_else(|| unknown_word(name, self.0.iter().copied()))
     }
 }
 
@@ -168,10 +196,10 @@ impl<'de> Visitor<'de> for Numbers<'_> {
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<(), E> {
-        if !unit::begins_as_number(text) {
+        if !begins_as_number(text) {
             return Err(E::invalid_type(Unexpected::Str(text), &self));
         }
-        let value = unit::of(unit_of(self.key)).parse(text)?;
+        let value = KeyUnit::of(unit_of(self.key)).parse(text)?;
         self.visit_f64(value)
     }
 

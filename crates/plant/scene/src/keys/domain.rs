@@ -1,52 +1,53 @@
 //! The extent of a scene, and how it is strained.
 
-use super::unit;
-use serde::Deserialize;
+use super::table::{table, words};
 
-/// `[domain]`
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Domain {
-    /// Periodic axes.
-    #[serde(default)]
-    pub periodic: Vec<Axis>,
-    /// Lowest corner [m].
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub low: Option<[f64; 3]>,
-    /// Highest corner [m].
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub high: Option<[f64; 3]>,
-    /// A run whose last domain it is, instead of `low` and `high`.
-    pub source: Option<String>,
-    /// What periodic axes follow.
-    #[serde(default)]
-    pub strain: Strains,
-    /// What becomes of particles that have fallen past all walls.
-    #[serde(default)]
-    pub outside: Outside,
+/// Fastest rate of strain [1/s].
+const FASTEST: f64 = 1e6;
+
+table! {
+    /// `[domain]`
+    #[derive(Default)]
+    Domain section {
+        /// Periodic axes.
+        periodic: Vec<Axis> = absent("none"), "", Any, "[\"x\", \"y\"]";
+        /// Lowest corner.
+        low: Option<[f64; 3]> = absent("required if periodic"), "m", Finite, "[0, 0, 0]";
+        /// Highest corner.
+        high: Option<[f64; 3]> = absent("required if periodic"), "m", Finite, "[0.1, 0.1, 0.1]";
+        /// A run whose last domain it is, instead of `low` and `high`.
+        source: Option<String> = absent("–"), "file", Any, "\"prepare.mcap\"";
+        /// What each periodic axis follows: see below.
+        strain: Strains = absent("–"), "", Any, "";
+        /// Particles that have fallen past all walls: keep them, or take them out by an outlet one diameter below the lowest place that any wall
+        /// reaches until the end. With "keep" the run counts them at its end.
+        outside: Outside = absent("\"keep\""), "", Any, "\"remove\"";
+    }
 }
 
-/// `domain.outside`
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Outside {
-    /// They fall on.
-    #[default]
-    Keep,
-    /// An outlet below the walls takes them out.
-    Remove,
+words! {
+    /// `domain.outside`
+    #[derive(Default)]
+    Outside {
+        /// They fall on.
+        #[default]
+        Keep "keep",
+        /// An outlet below the walls takes them out.
+        Remove "remove",
+    }
 }
 
-/// `domain.strain`: what each axis follows.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Strains {
-    /// Along x.
-    pub x: Option<Strain>,
-    /// Along y.
-    pub y: Option<Strain>,
-    /// Along z.
-    pub z: Option<Strain>,
+table! {
+    /// `domain.strain`: what each axis follows.
+    #[derive(Default)]
+    Strains inline {
+        /// Along x.
+        x: Option<Strain> = absent("–"), "", Any, "";
+        /// Along y.
+        y: Option<Strain> = absent("–"), "", Any, "";
+        /// Along z.
+        z: Option<Strain> = absent("–"), "", Any, "";
+    }
 }
 
 impl Strains {
@@ -61,37 +62,34 @@ impl Strains {
     }
 }
 
-/// What an axis of the domain follows; compression is positive.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Strain {
-    /// Rate of logarithmic strain [1/s]; this, `stress` or `path`.
-    #[serde(default, deserialize_with = "unit::a_second")]
-    pub rate: Option<f64>,
-    /// Mean stress of contacts and bonds [Pa]; this, `rate` or `path`.
-    #[serde(default, deserialize_with = "unit::pascals")]
-    pub stress: Option<f64>,
-    /// A table of strain or stress over time; this, `rate` or `stress`.
-    pub path: Option<StrainPath>,
-    /// Largest rate of strain with which a stress is followed [1/s].
-    #[serde(default, deserialize_with = "unit::a_second")]
-    pub rate_limit: Option<f64>,
+table! {
+    /// What an axis of the domain follows; compression is positive.
+    Strain section {
+        /// Rate of logarithmic strain; this, `stress` or `path`.
+        rate: Option<f64> = absent("–"), "1/s", Within(-FASTEST, FASTEST), "0.05";
+        /// Mean stress of contacts and bonds along the axis.
+        stress: Option<f64> = absent("–"), "Pa", Finite, "\"100 kPa\"";
+        /// Strain or stress over time: see below.
+        path: Option<StrainPath> = absent("–"), "", Any, "";
+        /// Largest rate of strain with which a stress is followed.
+        rate_limit: Option<f64> = absent("required with a stress"), "1/s", Within(1e-12, FASTEST), "1";
+    }
 }
 
-/// A table of strain or stress over time.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StrainPath {
-    /// CSV with the column t [s], and strain [–] or stress [Pa].
-    pub source: String,
+table! {
+    /// A table of strain or stress over time.
+    StrainPath inline {
+        /// A CSV file with the columns `t` [s], and `strain` or `stress` [Pa].
+        source: String = required, "file", Any, "\"stress.csv\"";
+    }
 }
 
-/// An axis of space.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-#[allow(missing_docs)]
-pub enum Axis {
-    X,
-    Y,
-    Z,
+words! {
+    /// An axis of space.
+    #[allow(missing_docs)]
+    Axis {
+        X "x",
+        Y "y",
+        Z "z",
+    }
 }

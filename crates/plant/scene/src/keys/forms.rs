@@ -1,14 +1,26 @@
 //! Values that may be written in two ways: a share, a word or a truth value, one table or a list of them.
 
+use super::table::{Key, Shape, Table, TableVisitor};
+use super::value::{In, KeyUnit, KeyValue};
 use super::{Accuracy, BackThroughZone, EnergyGuard};
-use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
+use crate::check::Check;
+use crate::error::Result as Checked;
+use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
+use std::ops::Deref;
 
-impl<'de> Deserialize<'de> for Accuracy {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Accuracy, D::Error> {
+impl KeyValue for Accuracy {
+    fn kind() -> String {
+        "text or number".to_owned()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<Accuracy, D::Error> {
         from.deserialize_any(Share)
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.0]
     }
 }
 
@@ -36,8 +48,12 @@ impl Visitor<'_> for Share {
     }
 }
 
-impl<'de> Deserialize<'de> for BackThroughZone {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<BackThroughZone, D::Error> {
+impl KeyValue for BackThroughZone {
+    fn kind() -> String {
+        "true/false or \"remove\"".to_owned()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<BackThroughZone, D::Error> {
         from.deserialize_any(Back)
     }
 }
@@ -63,9 +79,20 @@ impl Visitor<'_> for Back {
     }
 }
 
-impl<'de> Deserialize<'de> for EnergyGuard {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<EnergyGuard, D::Error> {
+impl KeyValue for EnergyGuard {
+    fn kind() -> String {
+        "number or false".to_owned()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<EnergyGuard, D::Error> {
         from.deserialize_any(ShareOrOff)
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        match self {
+            EnergyGuard::Share(share) => vec![*share],
+            EnergyGuard::Off => Vec::new(),
+        }
     }
 }
 
@@ -96,18 +123,42 @@ impl Visitor<'_> for ShareOrOff {
     }
 }
 
-/// Reads a table, or a list of tables.
-pub(super) fn one_or_more<'de, D, T>(from: D) -> Result<Option<Vec<T>>, D::Error>
-where
-    D: Deserializer<'de>,
-    T: Deserialize<'de>,
-{
-    from.deserialize_any(OneOrMore(PhantomData)).map(Some)
+/// A table, or a list of tables.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OneOrMore<T>(pub Vec<T>);
+
+impl<T> Deref for OneOrMore<T> {
+    type Target = [T];
+
+    fn deref(&self) -> &[T] {
+        &self.0
+    }
 }
 
-struct OneOrMore<T>(PhantomData<T>);
+impl<T: Table> KeyValue for OneOrMore<T> {
+    fn kind() -> String {
+        "table or list of tables".to_owned()
+    }
 
-impl<'de, T: Deserialize<'de>> Visitor<'de> for OneOrMore<T> {
+    fn table() -> Option<Shape> {
+        T::table()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<OneOrMore<T>, D::Error> {
+        from.deserialize_any(TableOrList(PhantomData)).map(OneOrMore)
+    }
+
+    fn check(&self, check: &Check, at: &str, _: &Key) -> Checked<()> {
+        match &self.0[..] {
+            [one] => one.check_keys(check, at),
+            list => list.iter().enumerate().try_for_each(|(i, t)| t.check_keys(check, &format!("{at}.{i}"))),
+        }
+    }
+}
+
+struct TableOrList<T>(PhantomData<T>);
+
+impl<'de, T: Table> Visitor<'de> for TableOrList<T> {
     type Value = Vec<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -115,10 +166,14 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for OneOrMore<T> {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vec<T>, A::Error> {
-        T::deserialize(MapAccessDeserializer::new(map)).map(|one| vec![one])
+        TableVisitor(PhantomData).visit_map(map).map(|one| vec![one])
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Vec<T>, A::Error> {
-        Vec::deserialize(SeqAccessDeserializer::new(seq))
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Vec<T>, A::Error> {
+        let mut list = Vec::new();
+        while let Some(table) = seq.next_element_seed(In::<T>::new(KeyUnit::of("")))? {
+            list.push(table);
+        }
+        Ok(list)
     }
 }

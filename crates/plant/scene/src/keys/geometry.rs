@@ -2,13 +2,11 @@
 //!
 //! Both become the text of the command line, which has one parser.
 
-use super::unit::{KeyUnit, Seed};
+use super::value::{In, KeyUnit, KeyValue};
 use geom::units;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use std::fmt;
-use std::marker::PhantomData;
-
-const METRES: KeyUnit = KeyUnit { unit: "m", such: "8 mm" };
+use std::ops::Deref;
 
 /// Numbers with commas.
 fn joined(numbers: &[f64]) -> String {
@@ -18,7 +16,7 @@ fn joined(numbers: &[f64]) -> String {
 /// The rest of a list: numbers in metres, or texts with a unit.
 fn lengths<'de, A: SeqAccess<'de>>(seq: &mut A) -> Result<Vec<f64>, A::Error> {
     let mut numbers = Vec::new();
-    while let Some(number) = seq.next_element_seed(Seed::<f64>(METRES, PhantomData))? {
+    while let Some(number) = seq.next_element_seed(In::<f64>::new(KeyUnit::of("m")))? {
         numbers.push(number);
     }
     Ok(numbers)
@@ -34,14 +32,37 @@ fn in_metres(text: &str) -> String {
     name + &numbers.split(',').map(part).collect::<Vec<_>>().join(",")
 }
 
-/// Reads a plane: `px,py,pz,nx,ny,nz`, or six numbers.
-pub(super) fn plane<'de, D: Deserializer<'de>, T: From<String>>(from: D) -> Result<T, D::Error> {
-    from.deserialize_any(PlaneText).map(T::from)
+/// A plane, as the command line has it: `px,py,pz,nx,ny,nz`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneText(pub String);
+
+impl Deref for PlaneText {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.0
+    }
 }
 
-struct PlaneText;
+impl fmt::Display for PlaneText {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self)
+    }
+}
 
-impl<'de> Visitor<'de> for PlaneText {
+impl KeyValue for PlaneText {
+    fn kind() -> String {
+        "text or 6 numbers".to_owned()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<PlaneText, D::Error> {
+        from.deserialize_any(PlaneVisitor).map(PlaneText)
+    }
+}
+
+struct PlaneVisitor;
+
+impl<'de> Visitor<'de> for PlaneVisitor {
     type Value = String;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -61,14 +82,37 @@ impl<'de> Visitor<'de> for PlaneText {
     }
 }
 
-/// Reads a shape: `box:x0,y0,z0,x1,y1,z1`, `["box", x0, …]` or `{ box = [x0, …] }`.
-pub(super) fn shape<'de, D: Deserializer<'de>, T: From<String>>(from: D) -> Result<T, D::Error> {
-    from.deserialize_any(ShapeText).map(T::from)
+/// A shape, as the command line has it: `box:x0,y0,z0,x1,y1,z1`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeText(pub String);
+
+impl Deref for ShapeText {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.0
+    }
 }
 
-struct ShapeText;
+impl fmt::Display for ShapeText {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self)
+    }
+}
 
-impl<'de> Visitor<'de> for ShapeText {
+impl KeyValue for ShapeText {
+    fn kind() -> String {
+        "text or list".to_owned()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<ShapeText, D::Error> {
+        from.deserialize_any(ShapeVisitor).map(ShapeText)
+    }
+}
+
+struct ShapeVisitor;
+
+impl<'de> Visitor<'de> for ShapeVisitor {
     type Value = String;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -1,19 +1,19 @@
 //! `[[fill]]` and `[[insert]]`: entries that make grains, and the keys that both have.
 
-use super::{Diameter, Lattice, ShareOf, geometry, unit};
-use serde::Deserialize;
+use super::table::table;
+use super::{Diameter, Lattice, ShapeText, ShareOf};
 
 /// What an entry says about the grains that it makes.
 #[derive(Debug, Clone, Copy)]
 pub struct GrainKeys<'a> {
-    /// Material; empty where there is a clump, or where sizes name theirs.
-    pub material: &'a str,
+    /// Material; none where there is a clump, or where sizes name theirs.
+    pub material: Option<&'a str>,
     /// Name of a `[[clump]]`: clumps instead of spheres.
     pub clump: Option<&'a str>,
     /// Sizes of clumps over that of their shape [–].
     pub scale: Option<Diameter>,
     /// Diameters [m].
-    pub diameter: Diameter,
+    pub diameter: Option<Diameter>,
     /// Sizes with shares instead of `diameter`.
     pub sizes: Option<&'a toml::Value>,
     /// What the shares of `sizes` are of.
@@ -25,39 +25,34 @@ impl GrainKeys<'_> {
     pub fn names(&self) -> (Vec<String>, Option<String>) {
         let rows = self.sizes.and_then(toml::Value::as_array).into_iter().flatten();
         let named = rows.filter_map(|row| Some(row.as_array()?.get(2)?.as_str()?.to_owned()));
-        let own = (!self.material.is_empty()).then(|| self.material.to_owned());
+        let own = self.material.map(str::to_owned);
         let file = self.sizes.and_then(|value| value.as_str().or_else(|| value.get("file")?.as_str()));
         (own.into_iter().chain(named).collect(), file.map(str::to_owned))
     }
 }
 
-/// A table that makes grains: the keys that all such tables have, and its own. Serde cannot refuse unknown keys of a struct within a struct.
+/// A table that makes grains: the keys that all such tables have, and its own.
 macro_rules! makes_grains {
     ($(#[$about:meta])* $name:ident { $($own:tt)* }) => {
-        $(#[$about])*
-        #[derive(Debug, Clone, PartialEq, Deserialize)]
-        #[serde(deny_unknown_fields)]
-        pub struct $name {
-            /// Material, unless there is a `clump`.
-            #[serde(default)]
-            pub material: String,
-            /// Name of a `[[clump]]`: clumps instead of spheres.
-            pub clump: Option<String>,
-            /// Sizes of clumps over that of their shape, uniform in the range [–].
-            #[serde(default, deserialize_with = "unit::plain")]
-            pub scale: Option<Diameter>,
-            /// Diameters, uniform in the range [m], unless there is a `clump`.
-            #[serde(default, deserialize_with = "unit::metres")]
-            pub diameter: Diameter,
-            /// Sizes with shares instead of `diameter`: see [`crate::plan`].
-            pub sizes: Option<toml::Value>,
-            /// What the shares of `sizes` are of.
-            #[serde(default)]
-            pub by: Option<ShareOf>,
-            /// Seed of the random numbers.
-            #[serde(default)]
-            pub seed: u64,
-            $($own)*
+        table! {
+            $(#[$about])*
+            $name section {
+                /// Material of the grains.
+                material: Option<String> = absent("required without `clump`, unless each of `sizes` names one"), "", Any, "\"glass\"";
+                /// Diameter, or a range [smallest, largest]; uniform in the range.
+                diameter: Option<Diameter> = absent("this or `sizes`, without `clump`"), "m", Pair, "[\"4 mm\", \"6 mm\"]";
+                /// Sizes with shares, see [sizes](#sizes).
+                sizes: Option<toml::Value> = absent("this or `diameter`"), "m", Any, "[[0.004, 1], [0.006, 2]]";
+                /// What the shares of `sizes` are of.
+                by: Option<ShareOf> = absent("\"mass\""), "", Any, "\"number\"";
+                /// Clumps of this name instead of spheres.
+                clump: Option<String> = absent("–"), "", Any, "\"stone\"";
+                /// With `clump`: factor on its size, or a range [smallest, largest].
+                scale: Option<Diameter> = absent("1"), "", Pair, "[0.8, 1.2]";
+                /// Seed of the random numbers.
+                seed: u64 = absent("0"), "", Any, "7";
+                $($own)*
+            }
         }
 
         impl $name {
@@ -65,7 +60,7 @@ macro_rules! makes_grains {
             pub fn grains(&self) -> GrainKeys<'_> {
                 let $name { material, clump, scale, diameter, sizes, by, .. } = self;
                 GrainKeys {
-                    material,
+                    material: material.as_deref().filter(|name| !name.is_empty()),
                     clump: clump.as_deref(),
                     scale: *scale,
                     diameter: *diameter,
@@ -80,55 +75,46 @@ macro_rules! makes_grains {
 makes_grains! {
     /// `[[fill]]`
     Fill {
-        /// Where; spheres lie wholly inside.
-        #[serde(deserialize_with = "geometry::shape")]
-        pub shape: String,
-        /// Mass [kg]; this or `count`.
-        #[serde(default, deserialize_with = "unit::kilograms")]
-        pub mass: Option<f64>,
-        /// Number; this or `mass`.
-        pub count: Option<u64>,
-        /// Velocity at t = 0 [m/s].
-        #[serde(default, deserialize_with = "unit::metres_a_second")]
-        pub velocity: [f64; 3],
-        /// Cluster of all its spheres; absent: none.
-        pub cluster: Option<u32>,
-        /// Spheres on a lattice, as many as fit, instead of `count` or `mass` at random.
-        pub lattice: Option<Lattice>,
+        /// Where: `box:…`, `sphere:…`, `cylinder:…`, `cone:…` or `mesh:FILE` (closed; also `mesh:FILE,units=mm,transform=MATRIX.txt`); spheres lie
+        /// wholly inside.
+        shape: ShapeText = required, "m", Any, "\"box:0,0,0,0.1,0.1,0.1\"";
+        /// Mass to place; this, `count` or `lattice`.
+        mass: Option<f64> = absent("–"), "kg", Positive, "2";
+        /// Number to place.
+        count: Option<u64> = absent("–"), "", Any, "500";
+        /// Equal spheres that touch, on all sites of this lattice that hold a whole sphere.
+        lattice: Option<Lattice> = absent("–"), "", Any, "\"hexagonal\"";
+        /// [Cluster](#clusters) of all its spheres.
+        cluster: Option<u32> = absent("0"), "", Any, "1";
+        /// Velocity at t = 0.
+        velocity: [f64; 3] = absent("0"), "m/s", Finite, "[0, 0, -1]";
     }
 }
 
 makes_grains! {
     /// `[[insert]]`
     Insert {
-        /// Cross-section, thicker along the velocity than the largest diameter.
-        #[serde(deserialize_with = "geometry::shape")]
-        pub shape: String,
-        /// Velocity [m/s]; particles keep it until they leave the shape.
-        #[serde(deserialize_with = "unit::metres_a_second")]
-        pub velocity: [f64; 3],
-        /// Rate [kg/s]; this or `rate_count`.
-        #[serde(default, deserialize_with = "unit::kilograms_a_second")]
-        pub rate: Option<f64>,
-        /// Rate [1/s]; this or `rate`.
-        #[serde(default, deserialize_with = "unit::a_second")]
-        pub rate_count: Option<f64>,
-        /// When it opens [s].
-        #[serde(default, deserialize_with = "unit::seconds")]
-        pub from: f64,
-        /// When it closes [s]; absent: never.
-        #[serde(default, deserialize_with = "unit::seconds")]
-        pub until: Option<f64>,
-        /// Mass after which it closes [kg]; absent: none.
-        #[serde(default, deserialize_with = "unit::kilograms")]
-        pub mass: Option<f64>,
-        /// Number after which it closes; absent: none.
-        pub count: Option<u64>,
-        /// Time after which it opens again [s]: `mass` and `count` are those of each time; absent: never.
-        #[serde(default, deserialize_with = "unit::seconds")]
-        pub repeat: Option<f64>,
-        /// How often it opens in all; absent: without end.
-        pub times: Option<u64>,
+        /// Where grains are inserted: `box:…`, `sphere:…` or `cylinder:…`; thicker along `velocity` than the largest diameter.
+        shape: ShapeText = required, "m", Any, "\"box:0,0,0.2,0.1,0.1,0.22\"";
+        /// Velocity of the grains inside the shape.
+        velocity: [f64; 3] = required, "m/s", Finite, "[0, 0, -1]";
+        /// Mass rate; this or `rate_count`.
+        rate: Option<f64> = absent("–"), "kg/s", Positive, "\"1.5 t/h\"";
+        /// Number rate; this or `rate`.
+        rate_count: Option<f64> = absent("–"), "1/s", Positive, "100";
+        /// Start of the insertion.
+        from: f64 = absent("0"), "s", Within(0.0, record::LATEST), "0.1";
+        /// End of the insertion.
+        until: Option<f64> = absent("never"), "s", Any, "1";
+        /// The insertion ends when it has inserted this mass; this or `count`.
+        mass: Option<f64> = absent("no limit"), "kg", Positive, "2";
+        /// The insertion ends when it has inserted this number (a clump counts as one); this or `mass`.
+        count: Option<u64> = absent("no limit"), "", Any, "500";
+        /// The insertion opens again this long after `from`, and again; at least `until` − `from`. Without `until` each time ends after `mass` or
+        /// `count`, or when the next begins.
+        repeat: Option<f64> = absent("never"), "s", Positive, "5";
+        /// With `repeat`: how often it opens in all.
+        times: Option<u64> = absent("no limit"), "", Any, "3";
     }
 }
 

@@ -1,6 +1,7 @@
-//! The keys of a scene, as they are written: one struct for each table, with defaults.
+//! The keys of a scene, as they are written: one struct for each table, declared with all that people and programs know of each key ([`table`]).
 //!
-//! Serde reads them ([`crate::text`]), [`crate::check`] checks their values, [`crate::plan`] turns them into a setup of the engine.
+//! [`crate::text`] reads them, [`crate::check`] checks how they go together, [`crate::plan`] turns them into a setup of the engine; [`sections`]
+//! lists them for people.
 
 mod bond;
 mod calculation;
@@ -10,73 +11,89 @@ mod domain;
 mod forms;
 mod geometry;
 mod grains;
+mod numbers;
 mod particles;
 mod place;
+mod sections;
 mod servo;
-mod unit;
+mod table;
+mod value;
 mod wall;
 
 pub use bond::*;
 pub use calculation::*;
 pub use contact::*;
 pub use domain::*;
+pub use forms::OneOrMore;
+pub use geometry::{PlaneText, ShapeText};
 pub use grains::*;
 pub use particles::*;
 pub use place::*;
+pub use sections::{Row, Section, reference, rows, sections};
 pub use servo::*;
+pub(crate) use table::{Key, Range, Table};
+pub(crate) use value::KeyValue;
 pub use wall::*;
 
-use serde::Deserialize;
+use serde::de::{Deserialize, Deserializer};
+use table::table;
+use value::KeyUnit;
 
-/// A scene; docs/reference/scene.md lists its keys. SI units.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct SceneKeys {
-    /// Acceleration of free fall [m/s²]; absent: none.
-    #[serde(deserialize_with = "unit::metres_a_second_squared")]
-    pub gravity: [f64; 3],
-    /// Id of the first particle that the scene itself makes; particles of an inlet keep theirs.
-    pub first_id: u32,
-    /// In which precision contacts are computed.
-    pub precision: Arithmetic,
-    /// Time.
-    pub time: Time,
-    /// What is written, and when.
-    pub output: Output,
-    /// Extent.
-    pub domain: Domain,
-    /// The fluid around the particles; absent: none.
-    pub drag: Option<Drag>,
-    /// Damping of what is not in balance; absent: none.
-    pub local_damping: Option<LocalDamping>,
-    /// Search for neighbours.
-    pub neighbours: Neighbours,
-    /// When particles at rest are passed over; absent: never.
-    pub sleep: Option<Sleep>,
-    /// When the run is stopped.
-    pub guards: Guards,
-    /// Materials.
-    pub material: Vec<Material>,
-    /// Laws between materials.
-    pub contact: Vec<Contact>,
-    /// Bonds between particles that are close at t = 0.
-    pub bond: Vec<Bond>,
-    /// Shapes of rigid clumps.
-    pub clump: Vec<Clump>,
-    /// Rigid clumps at t = 0.
-    pub body: Vec<Body>,
-    /// Shapes filled with particles at t = 0.
-    pub fill: Vec<Fill>,
-    /// Particles from files.
-    pub particles: Vec<Particles>,
-    /// Insertions.
-    pub insert: Vec<Insert>,
-    /// Walls.
-    pub wall: Vec<Wall>,
-    /// Storage planes with their zones.
-    pub outlet: Vec<Outlet>,
-    /// Zones that recorded particles enter by.
-    pub inlet: Vec<Inlet>,
+table! {
+    /// A scene; docs/reference/scene.md lists its keys. SI units.
+    #[derive(Default)]
+    SceneKeys section {
+        /// Acceleration of free fall.
+        gravity: [f64; 3] = absent("none"), "m/s²", Finite, "[0, 0, -9.81]";
+        /// Id of the first particle that the scene itself creates; particles of an inlet keep their ids.
+        first_id: u32 = absent("0"), "", Within(0.0, 4e9), "1000";
+        /// Precision of contacts; see below.
+        precision: Arithmetic = absent("\"f64\""), "", Any, "\"mixed\"";
+        /// Time.
+        time: Time = absent("–"), "", Any, "";
+        /// What is written, and when.
+        output: Output = absent("–"), "", Any, "";
+        /// Extent.
+        domain: Domain = absent("–"), "", Any, "";
+        /// Search for neighbours.
+        neighbours: Neighbours = absent("–"), "", Any, "";
+        /// When the run is stopped.
+        guards: Guards = absent("–"), "", Any, "";
+        /// When particles at rest are passed over.
+        sleep: Option<Sleep> = absent("never"), "", Any, "";
+        /// The fluid around the particles.
+        drag: Option<Drag> = absent("none"), "", Any, "";
+        /// Damping of what is not in balance.
+        local_damping: Option<LocalDamping> = absent("none"), "", Any, "";
+        /// Materials.
+        material: Vec<Material> = absent("none"), "", Any, "";
+        /// Laws between materials.
+        contact: Vec<Contact> = absent("none"), "", Any, "";
+        /// Shapes filled with particles at t = 0.
+        fill: Vec<Fill> = absent("none"), "", Any, "";
+        /// Particles from files.
+        particles: Vec<Particles> = absent("none"), "", Any, "";
+        /// Insertions.
+        insert: Vec<Insert> = absent("none"), "", Any, "";
+        /// Walls.
+        wall: Vec<Wall> = absent("none"), "", Any, "";
+        /// Storage planes with their zones.
+        outlet: Vec<Outlet> = absent("none"), "", Any, "";
+        /// Zones that recorded particles enter by.
+        inlet: Vec<Inlet> = absent("none"), "", Any, "";
+        /// Bonds between particles that are close at t = 0.
+        bond: Vec<Bond> = absent("none"), "", Any, "";
+        /// Shapes of rigid clumps.
+        clump: Vec<Clump> = absent("none"), "", Any, "";
+        /// Rigid clumps at t = 0.
+        body: Vec<Body> = absent("none"), "", Any, "";
+    }
+}
+
+impl<'de> Deserialize<'de> for SceneKeys {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<SceneKeys, D::Error> {
+        SceneKeys::read(KeyUnit::of(""), from)
+    }
 }
 
 impl SceneKeys {

@@ -1,8 +1,8 @@
 //! Particles: where they are, come from, and leave.
 
-use super::{OrAuto, geometry, unit};
+use super::table::{table, words};
+use super::{OrAuto, PlaneText};
 use dem::setup::{ZoneMotion, ZoneTest};
-use serde::Deserialize;
 
 /// One diameter or a range [m].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -13,58 +13,53 @@ pub struct Diameter {
     pub high: f64,
 }
 
-/// What shares of sizes are of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ShareOf {
-    /// Of mass, as sieves tell.
-    #[default]
-    Mass,
-    /// Of number.
-    Number,
+words! {
+    /// What shares of sizes are of.
+    #[derive(Default)]
+    ShareOf {
+        /// Of mass, as sieves tell.
+        #[default]
+        Mass "mass",
+        /// Of number.
+        Number "number",
+    }
 }
 
-/// `[[clump]]`: `spheres`, or `mesh` with `vertex_radius`.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Clump {
-    /// Name, by which other entries name it.
-    pub name: String,
-    /// Material.
-    pub material: String,
-    /// x, y, z, radius [m] of each sphere.
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub spheres: Option<Vec<[f64; 4]>>,
-    /// How the mass of overlapping spheres is computed.
-    #[serde(default)]
-    pub mass: ClumpMass,
-    /// A closed surface (PLY): the body; a sphere on each of its vertices.
-    pub mesh: Option<String>,
-    /// Radius of the spheres on the vertices of `mesh`, before `scale` [m].
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub vertex_radius: Option<f64>,
-    /// With `mesh`: its vertices are thinned to those of a mesh of so many faces.
-    pub faces: Option<u32>,
-    /// With `spheres`: volume, centre and inertia of the true body, in the frame of the spheres and before `scale`.
-    pub moments: Option<ClumpMoments>,
-    /// Lengths are multiplied by this [–].
-    #[serde(default = "one", deserialize_with = "unit::plain")]
-    pub scale: f64,
+table! {
+    /// `[[clump]]`: `spheres`, or `mesh` with `vertex_radius`.
+    Clump section {
+        /// Name that other entries use.
+        name: String = required, "", Name, "\"stone\"";
+        /// Material of all members.
+        material: String = required, "", Any, "\"glass\"";
+        /// Members: x, y, z, radius of each; this or `mesh`.
+        spheres: Option<Vec<[f64; 4]>> = absent("–"), "m", Finite, "[[0, 0, 0, 0.01], [0.01, 0, 0, 0.01]]";
+        /// With `spheres`: "union" is exact to 1e-9; "sum" counts overlaps twice.
+        mass: ClumpMass = absent("\"union\""), "", Any, "\"sum\"";
+        /// With `spheres`, instead of `mass`: the true body, in the frame of the spheres and before `scale`, as `stone-clump` writes it.
+        moments: Option<ClumpMoments> = absent("–"), "", Any, "";
+        /// Closed surface of triangles (PLY, STL, OBJ, text); this or `spheres`.
+        mesh: Option<String> = absent("–"), "file", Any, "\"stone.ply\"";
+        /// With `mesh`: radius of the sphere on each vertex, before `scale`.
+        vertex_radius: Option<f64> = absent("–"), "m", Positive, "0.001";
+        /// With `mesh`: spheres sit on the vertices of the mesh thinned to so many faces.
+        faces: Option<u32> = absent("all"), "", Any, "100";
+        /// Factor on all lengths.
+        scale: f64 = default(1.0), "", Positive, "0.5";
+    }
 }
 
-/// `[[clump]] moments`: a body of density 1.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ClumpMoments {
-    /// Volume [m³].
-    #[serde(deserialize_with = "unit::cubic_metres")]
-    pub volume: f64,
-    /// Centre of mass [m].
-    #[serde(deserialize_with = "unit::metres")]
-    pub centre: [f64; 3],
-    /// Terms xx, yy, zz, xy, xz, yz of the inertia tensor of density 1 about the centre of mass [m⁵].
-    #[serde(deserialize_with = "unit::plain")]
-    pub inertia: [f64; 6],
+table! {
+    /// `[[clump]] moments`: a body of density 1.
+    #[derive(Copy)]
+    ClumpMoments inline {
+        /// Volume.
+        volume: f64 = required, "m³", Positive, "1e-6";
+        /// Centre of mass.
+        centre: [f64; 3] = required, "m", Finite, "[0, 0, 0]";
+        /// Terms xx, yy, zz, xy, xz, yz of the inertia tensor of density 1 about the centre of mass.
+        inertia: [f64; 6] = required, "m⁵", Finite, "[1e-11, 1e-11, 1e-11, 0, 0, 0]";
+    }
 }
 
 impl ClumpMoments {
@@ -75,80 +70,67 @@ impl ClumpMoments {
     }
 }
 
-fn one() -> f64 {
-    1.0
+words! {
+    /// Mass, centre and inertia of a clump of spheres.
+    #[derive(Default)]
+    ClumpMass {
+        /// Of the union.
+        #[default]
+        Union "union",
+        /// Of the sum: where spheres overlap, twice.
+        Sum "sum",
+    }
 }
 
-/// Mass, centre and inertia of a clump of spheres.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ClumpMass {
-    /// Of the union.
-    #[default]
-    Union,
-    /// Of the sum: where spheres overlap, twice.
-    Sum,
+table! {
+    /// `[[body]]`: one rigid clump.
+    Body section {
+        /// Name of its `[[clump]]`.
+        clump: String = required, "", Any, "\"stone\"";
+        /// Centre of mass.
+        position: [f64; 3] = required, "m", Finite, "[0, 0, 0.1]";
+        /// Orientation w, x, y, z.
+        quaternion: [f64; 4] = default([1.0, 0.0, 0.0, 0.0]), "", Any, "[0, 0, 0, 1]";
+        /// Velocity of the centre of mass.
+        velocity: [f64; 3] = absent("0"), "m/s", Finite, "[0, 0, -1]";
+        /// Angular velocity.
+        spin: [f64; 3] = absent("0"), "rad/s", Finite, "[0, 0, \"30 rpm\"]";
+        /// Factor on the size of the `[[clump]]`.
+        scale: f64 = default(1.0), "", Positive, "0.5";
+    }
 }
 
-/// `[[body]]`: one rigid clump.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Body {
-    /// Name of its `[[clump]]`.
-    pub clump: String,
-    /// Centre of mass [m].
-    #[serde(deserialize_with = "unit::metres")]
-    pub position: [f64; 3],
-    /// Orientation: w, x, y, z.
-    #[serde(default = "upright", deserialize_with = "unit::plain")]
-    pub quaternion: [f64; 4],
-    /// Velocity of the centre of mass [m/s].
-    #[serde(default, deserialize_with = "unit::metres_a_second")]
-    pub velocity: [f64; 3],
-    /// Angular velocity [rad/s].
-    #[serde(default, deserialize_with = "unit::radians_a_second")]
-    pub spin: [f64; 3],
-    /// Size over that of the clump [–].
-    #[serde(default = "one", deserialize_with = "unit::plain")]
-    pub scale: f64,
+words! {
+    /// Lattices of equal spheres that touch.
+    Lattice {
+        /// Six neighbours.
+        Cubic "cubic",
+        /// Twelve neighbours: layers of hexagons (hexagonal close packing).
+        Hexagonal "hexagonal",
+    }
 }
 
-fn upright() -> [f64; 4] {
-    [1.0, 0.0, 0.0, 0.0]
-}
-
-/// Lattices of equal spheres that touch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Lattice {
-    /// Six neighbours.
-    Cubic,
-    /// Twelve neighbours: layers of hexagons (hexagonal close packing).
-    Hexagonal,
-}
-
-/// `[[particles]]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Particles {
-    /// CSV, PLY or run MCAP (its last frame).
-    pub source: String,
-    /// Material of all; needed unless the file is a run, which names its own.
-    pub material: Option<String>,
-    /// Name of a `[[clump]]`: a clump for each row.
-    pub clump: Option<String>,
-    /// Whether they stay where they are: spheres of a wall.
-    #[serde(default)]
-    pub fixed: bool,
-    /// Factor on the lengths in the file: positions, radii and velocities [–]; this or `units`.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub scale: Option<f64>,
-    /// Unit of the lengths in the file, such as "mm"; absent: metres.
-    pub units: Option<String>,
-    /// Cluster of all; absent: that of each row, if the file has them.
-    pub cluster: Option<u32>,
-    /// Materials by the number in the column `material` of a CSV or PLY, from 0.
-    pub materials: Option<Vec<String>>,
+table! {
+    /// `[[particles]]`
+    Particles section {
+        /// CSV, PLY, or a run (its last frame).
+        source: String = required, "file", Any, "\"grains.csv\"";
+        /// Material of all grains; this or `materials`, unless the file is a run.
+        material: Option<String> = absent("that of the run"), "", Any, "\"glass\"";
+        /// Each row is a clump of this name.
+        clump: Option<String> = absent("–"), "", Any, "\"stone\"";
+        /// [Cluster](#clusters) of all grains.
+        cluster: Option<u32> = absent("that of each row, or 0"), "", Any, "1";
+        /// Instead of `material`: names for the numbers 0, 1, … in the column `material` of a CSV or PLY, as `stone-pack` writes it.
+        materials: Option<Vec<String>> = absent("–"), "", Any, "[\"soil\", \"stone\"]";
+        /// The grains stay where they are: they are spheres of a wall.
+        fixed: bool = absent("false"), "", Any, "true";
+        /// Unit of the lengths in the file (positions, radii, velocities): "mm", "cm", "in", "ft"; this or `scale`; not for a run, which is in
+        /// metres.
+        units: Option<String> = absent("\"m\""), "", Any, "\"mm\"";
+        /// Factor on these lengths; this or `units`.
+        scale: Option<f64> = absent("1"), "", Positive, "0.001";
+    }
 }
 
 impl Particles {
@@ -158,45 +140,38 @@ impl Particles {
     }
 }
 
-/// `[[outlet]]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Outlet {
-    /// Storage plane, its normal in the direction of flow.
-    #[serde(deserialize_with = "geometry::plane")]
-    pub plane: String,
-    /// L1 [m]; "auto" is 1.2 times the largest diameter.
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub length: OrAuto,
-    /// Motion in the zone.
-    #[serde(default)]
-    pub motion: ZoneMotion,
-    /// Which point of a particle crosses the planes.
-    #[serde(default)]
-    pub test: ZoneTest,
-    /// Time between samples of paths, with motion "recorded" [s]; absent: ten steps.
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub samples: Option<f64>,
-    /// Mark of the plant that the stage upstream was cut from (stage-split); it goes into the record.
-    pub plant: Option<String>,
+table! {
+    /// `[[outlet]]`
+    Outlet section {
+        /// Storage plane `px,py,pz,nx,ny,nz`; the normal points downstream.
+        plane: PlaneText = required, "m", Any, "[0, 0, 0.2, 0, 0, -1]";
+        /// Length of the zone; "auto" is 1.2 × the largest diameter.
+        length: OrAuto = absent("\"auto\""), "m", Positive, "0.01";
+        /// Motion of grains in the zone.
+        motion: ZoneMotion = absent("\"constant\""), "", Any, "\"ballistic\"";
+        /// Which point of a grain triggers a crossing.
+        test: ZoneTest = absent("\"centre\""), "", Any, "\"lowest\"";
+        /// With "recorded": time between samples of paths.
+        samples: Option<f64> = absent("ten steps"), "s", Positive, "1e-4";
+        /// Mark of the plant that the stage was cut from ([stages.md](../how-to/stages.md#what-is-refused)).
+        plant: Option<String> = absent("none"), "", Any, "\"1f3a\"";
+    }
 }
 
-/// `[[inlet]]`
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Inlet {
-    /// Calculation plane, its normal in the direction of flow.
-    #[serde(deserialize_with = "geometry::plane")]
-    pub plane: String,
-    /// L2 [m]; "auto" is what the recorded stream was written with.
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub length: OrAuto,
-    /// Motion in the zone; absent: that of the stream.
-    pub motion: Option<ZoneMotion>,
-    /// Which point of a particle crosses the planes; absent: that of the stream.
-    pub test: Option<ZoneTest>,
-    /// Mark of the plant that the stage upstream was cut from (stage-split); a record of another plant is refused.
-    pub plant: Option<String>,
-    /// Inlet MCAP; absent: given on the command line.
-    pub source: Option<String>,
+table! {
+    /// `[[inlet]]`
+    Inlet section {
+        /// Calculation plane; the normal points downstream.
+        plane: PlaneText = required, "m", Any, "[0, 0, 0.2, 0, 0, -1]";
+        /// Length of the zone.
+        length: OrAuto = absent("that of the stream"), "m", Positive, "0.01";
+        /// Motion of grains in the zone.
+        motion: Option<ZoneMotion> = absent("that of the stream"), "", Any, "\"ballistic\"";
+        /// Which point of a grain triggers a crossing.
+        test: Option<ZoneTest> = absent("that of the stream"), "", Any, "\"lowest\"";
+        /// Mark of the plant; a record of another plant is refused.
+        plant: Option<String> = absent("none"), "", Any, "\"1f3a\"";
+        /// Inlet MCAP.
+        source: Option<String> = absent("command line"), "file", Any, "\"inlet.mcap\"";
+    }
 }

@@ -1,36 +1,31 @@
 //! Where a wall is put: `place`.
 
-use super::unit;
+use super::table::table;
 use dem::setup::WallShape;
 use geom::mesh::TriMesh;
 use geom::{Plane, Vec3};
 use nalgebra::{Unit, UnitQuaternion};
-use serde::Deserialize;
 
-/// A step on the way of a wall from where it is drawn to where it is: a turn, then a shift.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Place {
-    /// Turn about an axis.
-    pub rotate: Option<Turned>,
-    /// Shift [m].
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub translate: Option<[f64; 3]>,
+table! {
+    /// A step on the way of a wall from where it is drawn to where it is: a turn, then a shift.
+    Place section {
+        /// Turn about an axis.
+        rotate: Option<Turned> = absent("none"), "", Any, "";
+        /// Shift, after the turn.
+        translate: Option<[f64; 3]> = absent("none"), "m", Finite, "[0, 0, 1]";
+    }
 }
 
-/// A turn about an axis.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Turned {
-    /// Direction of the axis, right-handed.
-    #[serde(deserialize_with = "unit::plain")]
-    pub about: [f64; 3],
-    /// A point of the axis [m]; absent: the origin.
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub through: [f64; 3],
-    /// Angle [rad].
-    #[serde(deserialize_with = "unit::radians")]
-    pub angle: f64,
+table! {
+    /// A turn about an axis.
+    Turned inline {
+        /// Direction of the axis, right-handed.
+        about: [f64; 3] = required, "", Finite, "[0, 0, 1]";
+        /// A point of the axis.
+        through: [f64; 3] = absent("the origin"), "m", Finite, "[0, 0, 0]";
+        /// Angle.
+        angle: f64 = required, "rad", Finite, "\"35 deg\"";
+    }
 }
 
 /// All steps of a wall, one after the other: x ↦ R x + s.

@@ -1,40 +1,36 @@
 //! Walls that follow a force or a stress.
 
-use super::unit::{self, KeyUnit};
-use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use super::table::table;
+use super::value::{KeyUnit, KeyValue, begins_as_number};
+use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use std::fmt;
 
-/// A force that a wall follows.
-#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Servo {
-    /// Which way the wall pushes.
-    #[serde(deserialize_with = "unit::plain")]
-    pub direction: [f64; 3],
-    /// Force on the particles [N]; this, `stress` or `path`.
-    #[serde(default, deserialize_with = "unit::newtons")]
-    pub force: Option<f64>,
-    /// Stress [Pa] on an area; this, `force` or `path`.
-    #[serde(default, deserialize_with = "unit::pascals")]
-    pub stress: Option<f64>,
-    /// A table of force or stress over time; this, `force` or `stress`.
-    pub path: Option<ServoPath>,
-    /// Area that a stress acts on [m²]; this or `area_between`.
-    #[serde(default, deserialize_with = "unit::square_metres")]
-    pub area: Option<f64>,
-    /// Two sides of the area that a stress acts on; this or `area`.
-    pub area_between: Option<[Side; 2]>,
-    /// Largest speed [m/s].
-    #[serde(deserialize_with = "unit::metres_a_second")]
-    pub speed_limit: f64,
+table! {
+    /// A force that a wall follows.
+    Servo section {
+        /// Direction in which the wall pushes; of a plane, to the side of the grains.
+        direction: [f64; 3] = required, "", Finite, "[0, 0, -1]";
+        /// Force on the grains; this, `stress` or `path`.
+        force: Option<f64> = absent("–"), "N", Finite, "100";
+        /// Stress on the grains, on `area` or `area_between`.
+        stress: Option<f64> = absent("–"), "Pa", Finite, "\"100 kPa\"";
+        /// Force or stress over time: see below.
+        path: Option<ServoPath> = absent("–"), "", Any, "";
+        /// Area that a stress acts on.
+        area: Option<f64> = absent("–"), "m²", Positive, "\"20 cm²\"";
+        /// The two sides of that area: each a pair of walls, or a length; see below.
+        area_between: Option<[Side; 2]> = absent("–"), "m", Positive, "[[\"left\", \"right\"], \"10 cm\"]";
+        /// Largest speed.
+        speed_limit: f64 = required, "m/s", Positive, "0.1";
+    }
 }
 
-/// A table of force or stress over time.
-#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ServoPath {
-    /// CSV with the column t [s], and force [N] or stress [Pa].
-    pub source: String,
+table! {
+    /// A table of force or stress over time.
+    ServoPath inline {
+        /// A CSV file with the columns `t` [s], and `force` [N] or `stress` [Pa].
+        source: String = required, "file", Any, "\"load.csv\"";
+    }
 }
 
 /// A side of an area.
@@ -46,15 +42,40 @@ pub enum Side {
     Walls([String; 2]),
 }
 
-const LENGTH: KeyUnit = KeyUnit { unit: "m", such: "8 mm" };
+impl KeyValue for Side {
+    fn kind() -> String {
+        "text or number".to_owned()
+    }
 
-impl<'de> Deserialize<'de> for Side {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Side, D::Error> {
-        from.deserialize_any(SideVisitor)
+    fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<Side, D::Error> {
+        from.deserialize_any(SideVisitor(unit))
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        match self {
+            Side::Length(length) => vec![*length],
+            Side::Walls(_) => Vec::new(),
+        }
     }
 }
 
-struct SideVisitor;
+impl KeyValue for [Side; 2] {
+    fn kind() -> String {
+        "list of 2".to_owned()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<[Side; 2], D::Error> {
+        let sides = Vec::<Side>::read(unit, from)?;
+        let count = sides.len();
+        sides.try_into().map_err(|_| D::Error::invalid_length(count, &"a list of 2"))
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        self.iter().flat_map(Side::numbers).collect()
+    }
+}
+
+struct SideVisitor(KeyUnit);
 
 impl<'de> Visitor<'de> for SideVisitor {
     type Value = Side;
@@ -74,10 +95,10 @@ impl<'de> Visitor<'de> for SideVisitor {
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<Side, E> {
-        if !unit::begins_as_number(text) {
+        if !begins_as_number(text) {
             return Err(E::invalid_value(serde::de::Unexpected::Str(text), &self));
         }
-        LENGTH.parse(text).map(Side::Length)
+        self.0.parse(text).map(Side::Length)
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Side, A::Error> {

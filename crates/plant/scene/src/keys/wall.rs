@@ -1,82 +1,64 @@
 //! Walls and how they move.
 
-use super::{Place, Placement, Servo, forms, geometry, unit};
+use super::forms::OneOrMore;
+use super::table::{table, words};
+use super::{Place, Placement, PlaneText, Servo, ShapeText};
 use dem::setup::WallShape;
 use geom::{Plane, Vec3};
-use serde::Deserialize;
 
-/// `[[wall]]`: one of `source`, `plane`, `mesh`, `box`, or none for walls of the command line.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Wall {
-    /// Name, for messages.
-    pub name: Option<String>,
-    /// Wall spheres: a walls MCAP.
-    pub source: Option<String>,
-    /// Unbounded plane; its normal points to the particles.
-    #[serde(default, deserialize_with = "geometry::plane")]
-    pub plane: Option<String>,
-    /// Triangles: a PLY, STL or OBJ file.
-    pub mesh: Option<String>,
-    /// Surface of a solid: `box:…`, `cylinder:…`, `cone:…` or `sphere:…`.
-    #[serde(default, deserialize_with = "geometry::shape")]
-    pub solid: Option<String>,
-    /// Factor on the lengths in the file of `mesh` or `source` [–]; this or `units`.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub scale: Option<f64>,
-    /// Unit of the lengths in the file of `mesh` or `source`, such as "mm"; absent: metres.
-    pub units: Option<String>,
-    /// Planes that look inward: lowest, highest corner [m].
-    #[serde(default, rename = "box", deserialize_with = "unit::metres")]
-    pub cuboid: Option<[f64; 6]>,
-    /// Which faces of the box there are; absent: all six.
-    pub faces: Option<Vec<Face>>,
-    /// Where it is put, step by step; absent: where it is drawn.
-    #[serde(default, deserialize_with = "forms::one_or_more")]
-    pub place: Option<Vec<Place>>,
-    /// Material; walls of an MCAP name their own.
-    pub material: Option<String>,
-    /// Motion, or several that act one after the other; absent: at rest.
-    #[serde(default, deserialize_with = "forms::one_or_more")]
-    pub motion: Option<Vec<Motion>>,
-    /// Velocity of its surface, which moves on it as that of a belt [m/s].
-    #[serde(default, deserialize_with = "unit::metres_a_second")]
-    pub surface_velocity: Option<[f64; 3]>,
-    /// Turn of its surface, which moves on it as that of a turntable.
-    pub surface_rotation: Option<Rotate>,
-    /// A force that it follows in addition; absent: none.
-    pub servo: Option<Servo>,
-    /// A spring that holds it, so that grains move it; absent: none.
-    pub spring: Option<Spring>,
+table! {
+    /// `[[wall]]`: one of `source`, `plane`, `mesh`, `solid`, `box`, or none for walls of the command line.
+    #[derive(Default)]
+    Wall section {
+        /// Name in messages and output.
+        name: Option<String> = absent("\"wall.N\""), "", Name, "\"hopper\"";
+        /// Wall spheres (walls MCAP).
+        source: Option<String> = absent("–"), "file", Any, "\"walls.mcap\"";
+        /// Unbounded plane `px,py,pz,nx,ny,nz`; the normal points to the grains.
+        plane: Option<PlaneText> = absent("–"), "m", Any, "[0, 0, 0, 0, 0, 1]";
+        /// Triangles (PLY, STL, OBJ, text).
+        mesh: Option<String> = absent("–"), "file", Any, "\"chute.stl\"";
+        /// Surface of a solid: `box:…`, `cylinder:…`, `cone:…` or `sphere:…`; see below.
+        solid: Option<ShapeText> = absent("–"), "m", Any, "\"cylinder:0,0,0,0,0,1,0.1\"";
+        /// Unit of the lengths in the file of `mesh` or `source`: "mm", "cm", "in", "ft"; this or `scale`.
+        units: Option<String> = absent("\"m\""), "", Any, "\"mm\"";
+        /// Factor on the lengths in the file of `mesh` or `source`; this or `units`.
+        scale: Option<f64> = absent("1"), "", Positive, "0.001";
+        /// Unbounded planes that face inward: x0, y0, z0, x1, y1, z1; see below.
+        cuboid as "box": Option<[f64; 6]> = absent("–"), "m", Finite, "[0, 0, 0, 0.1, 0.1, 0.3]";
+        /// Which faces of the box exist.
+        faces: Option<Vec<Face>> = absent("all six"), "", Any, "[\"x-\", \"z+\"]";
+        /// Where the wall is put: a table, or a list of tables; see below.
+        place: Option<OneOrMore<Place>> = absent("where it is drawn"), "", Any, "";
+        /// Material of the wall; a walls MCAP names its own.
+        material: Option<String> = absent("required"), "", Any, "\"steel\"";
+        /// How the wall moves: a table, or a list of tables that act one after the other; see below.
+        motion: Option<OneOrMore<Motion>> = absent("at rest"), "", Any, "";
+        /// A belt: the wall is at rest, and its surface moves with this velocity.
+        surface_velocity: Option<[f64; 3]> = absent("none"), "m/s", Finite, "[1, 0, 0]";
+        /// A turntable: the wall is at rest, and its surface rotates.
+        surface_rotation: Option<Rotate> = absent("none"), "", Any, "";
+        /// Follows a force: see below.
+        servo: Option<Servo> = absent("none"), "", Any, "";
+        /// Is held by a spring, so that grains move it: see below.
+        spring: Option<Spring> = absent("none"), "", Any, "";
+    }
 }
 
-/// A face of a box.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[allow(missing_docs)]
-pub enum Face {
-    #[serde(rename = "x-")]
-    LowX,
-    #[serde(rename = "x+")]
-    HighX,
-    #[serde(rename = "y-")]
-    LowY,
-    #[serde(rename = "y+")]
-    HighY,
-    #[serde(rename = "z-")]
-    LowZ,
-    #[serde(rename = "z+")]
-    HighZ,
+words! {
+    /// A face of a box.
+    #[allow(missing_docs)]
+    Face {
+        LowX "x-",
+        HighX "x+",
+        LowY "y-",
+        HighY "y+",
+        LowZ "z-",
+        HighZ "z+",
+    }
 }
 
 impl Face {
-    /// All faces.
-    pub const ALL: [Face; 6] = [Face::LowX, Face::HighX, Face::LowY, Face::HighY, Face::LowZ, Face::HighZ];
-
-    /// Its name in scenes.
-    pub fn name(self) -> &'static str {
-        ["x-", "x+", "y-", "y+", "z-", "z+"][self as usize]
-    }
-
     /// Its coordinate along its axis, in a box between two corners [m].
     pub fn coordinate(self, corners: &[f64; 6]) -> f64 {
         corners[self as usize / 2 + 3 * (self as usize % 2)]
@@ -104,7 +86,7 @@ impl Wall {
     /// The faces of a box with their planes, where they are put; none of other walls.
     pub fn sides(&self) -> Vec<(Face, Plane)> {
         let Some(corners) = self.cuboid else { return Vec::new() };
-        let (faces, place) = (self.faces.as_deref().unwrap_or(&Face::ALL), self.placement());
+        let (faces, place) = (self.faces.as_deref().unwrap_or(Face::ALL), self.placement());
         let put = |plane: Plane| place.map_or(plane, |place| place.plane(&plane));
         faces.iter().map(|face| (*face, put(face.plane(&corners)))).collect()
     }
@@ -134,33 +116,30 @@ pub(super) fn length_factor(scale: Option<f64>, units: Option<&str>) -> f64 {
     scale.or(units.and_then(|name| geom::units::factor(name, "m").ok())).unwrap_or(1.0)
 }
 
-/// Motion of a wall.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Motion {
-    /// Turn.
-    pub rotate: Option<Rotate>,
-    /// Shift [m/s].
-    #[serde(default, deserialize_with = "unit::metres_a_second")]
-    pub translate: Option<[f64; 3]>,
-    /// Vibration.
-    pub vibrate: Option<Vibrate>,
-    /// Swing about an axis.
-    pub swing: Option<Swing>,
-    /// A table over time.
-    pub path: Option<Path>,
-    /// When all of it starts [s].
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub from: f64,
-    /// When it stops, where the wall is then [s]; absent: never.
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub until: Option<f64>,
-    /// Time in which it starts, and in which it ends [s].
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub ramp: f64,
-    /// Time after which it starts again [s]; absent: never.
-    #[serde(default, deserialize_with = "unit::seconds")]
-    pub repeat: Option<f64>,
+table! {
+    /// Motion of a wall.
+    #[derive(Default)]
+    Motion section {
+        /// Rotation; an unbounded plane can rotate about its own normal only.
+        rotate: Option<Rotate> = absent("none"), "", Any, "";
+        /// Constant velocity.
+        translate: Option<[f64; 3]> = absent("none"), "m/s", Finite, "[0.5, 0, 0]";
+        /// Harmonic vibration.
+        vibrate: Option<Vibrate> = absent("none"), "", Any, "";
+        /// Rotation forth and back.
+        swing: Option<Swing> = absent("none"), "", Any, "";
+        /// A table over time: see below.
+        path: Option<Path> = absent("none"), "", Any, "";
+        /// Start of the motion.
+        from: f64 = absent("0"), "s", Finite, "2";
+        /// End of the motion; the wall then stays where it is.
+        until: Option<f64> = absent("never"), "s", Any, "2.4";
+        /// Time in which the speed rises from 0 after `from`, and in which it falls to 0 before `until`.
+        ramp: f64 = absent("0"), "s", Finite, "0.1";
+        /// The motion starts again this long after `from`, and again, each time from where it has come; a `path` then begins again, a `vibrate`
+        /// or `swing` goes on in its phase. At least `until` − `from`; a `path` needs no `until`.
+        repeat: Option<f64> = absent("never"), "s", Positive, "5";
+    }
 }
 
 impl Motion {
@@ -170,82 +149,66 @@ impl Motion {
     }
 }
 
-/// A swing about a fixed axis.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Swing {
-    /// Direction of the axis, right-handed.
-    #[serde(deserialize_with = "unit::plain")]
-    pub about: [f64; 3],
-    /// A point of the axis [m].
-    #[serde(deserialize_with = "unit::metres")]
-    pub through: [f64; 3],
-    /// Largest angle to either side [rad].
-    #[serde(deserialize_with = "unit::radians")]
-    pub amplitude: f64,
-    /// Frequency [Hz].
-    #[serde(deserialize_with = "unit::hertz")]
-    pub frequency: f64,
+table! {
+    /// A swing about a fixed axis.
+    Swing inline {
+        /// Direction of the axis, right-handed.
+        about: [f64; 3] = required, "", Finite, "[0, 1, 0]";
+        /// A point of the axis.
+        through: [f64; 3] = required, "m", Finite, "[0, 0, 0]";
+        /// Largest angle to either side.
+        amplitude: f64 = required, "rad", Finite, "\"15 deg\"";
+        /// Frequency.
+        frequency: f64 = required, "Hz", Positive, "0.5";
+    }
 }
 
-/// A motion as a table over time.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Path {
-    /// CSV with the columns t [s], x y z [m] and angle [rad].
-    pub source: String,
-    /// Axis of the column `angle`, right-handed.
-    #[serde(default, deserialize_with = "unit::plain")]
-    pub about: Option<[f64; 3]>,
-    /// A point of the axis [m].
-    #[serde(default, deserialize_with = "unit::metres")]
-    pub through: Option<[f64; 3]>,
+table! {
+    /// A motion as a table over time.
+    Path inline {
+        /// A CSV file with the columns `t` [s], `x`, `y`, `z` [m] and `angle` [rad].
+        source: String = required, "file", Any, "\"path.csv\"";
+        /// Axis of the column `angle`, right-handed.
+        about: Option<[f64; 3]> = absent("–"), "", Finite, "[0, 1, 0]";
+        /// A point of this axis.
+        through: Option<[f64; 3]> = absent("–"), "m", Finite, "[0, 0, 0]";
+    }
 }
 
-/// A spring and a dashpot that hold a wall.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Spring {
-    /// Direction in which the wall can move.
-    #[serde(deserialize_with = "unit::plain")]
-    pub direction: [f64; 3],
-    /// Of the spring [N/m].
-    #[serde(deserialize_with = "unit::newtons_a_metre")]
-    pub stiffness: f64,
-    /// Of the dashpot [N·s/m].
-    #[serde(default, deserialize_with = "unit::newton_seconds_a_metre")]
-    pub damping: f64,
-    /// Mass of the wall [kg].
-    #[serde(deserialize_with = "unit::kilograms")]
-    pub mass: f64,
-    /// Largest speed [m/s].
-    #[serde(deserialize_with = "unit::metres_a_second")]
-    pub speed_limit: f64,
+table! {
+    /// A spring and a dashpot that hold a wall.
+    Spring section {
+        /// Direction in which the wall can move.
+        direction: [f64; 3] = required, "", Finite, "[0, 0, 1]";
+        /// Stiffness of the spring.
+        stiffness: f64 = required, "N/m", Positive, "1e4";
+        /// Of the dashpot.
+        damping: f64 = absent("0"), "N·s/m", Within(0.0, 1e12), "100";
+        /// Mass of the wall.
+        mass: f64 = required, "kg", Positive, "5";
+        /// Largest speed that is expected; a faster wall stops the run.
+        speed_limit: f64 = required, "m/s", Positive, "1";
+    }
 }
 
-/// A turn about a fixed axis.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Rotate {
-    /// Direction of the axis, right-handed.
-    #[serde(deserialize_with = "unit::plain")]
-    pub about: [f64; 3],
-    /// A point of the axis [m].
-    #[serde(deserialize_with = "unit::metres")]
-    pub through: [f64; 3],
-    /// Turns per minute.
-    #[serde(deserialize_with = "unit::turns_a_minute")]
-    pub rpm: f64,
+table! {
+    /// A rotation about a fixed axis.
+    Rotate inline {
+        /// Direction of the axis, right-handed.
+        about: [f64; 3] = required, "", Finite, "[0, 0, 1]";
+        /// A point of the axis.
+        through: [f64; 3] = required, "m", Finite, "[0, 0, 0]";
+        /// Turns per minute.
+        rpm: f64 = required, "rpm", Finite, "8";
+    }
 }
 
-/// A harmonic vibration.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Vibrate {
-    /// Amplitude and direction [m].
-    #[serde(deserialize_with = "unit::metres")]
-    pub amplitude: [f64; 3],
-    /// Frequency [Hz].
-    #[serde(deserialize_with = "unit::hertz")]
-    pub frequency: f64,
+table! {
+    /// A harmonic vibration.
+    Vibrate inline {
+        /// Amplitude and direction.
+        amplitude: [f64; 3] = required, "m", Finite, "[0, 0, 0.001]";
+        /// Frequency.
+        frequency: f64 = required, "Hz", Positive, "50";
+    }
 }

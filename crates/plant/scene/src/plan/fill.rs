@@ -39,7 +39,7 @@ impl PlanBuilder<'_> {
             return Err(self.check.wrong(&key("shape"), &entry.shape, why, cure));
         };
         if let Some(lattice) = entry.lattice {
-            let material = self.grain(&key("material"), &entry.material)?.index;
+            let material = self.grain(&key("material"), entry.grains().material.unwrap_or_default())?.index;
             return self.fill_lattice(index, entry, (shape, corners), (lattice, material));
         }
         let largest = grading.range().high / 2.0;
@@ -78,7 +78,8 @@ impl PlanBuilder<'_> {
         (shape, corners): (&Shape, (Vec3, Vec3)),
         (lattice, material): (Lattice, u16),
     ) -> Result<()> {
-        let (first_id, taken, diameter) = (self.next_id(), self.taken(), entry.diameter.high);
+        let (first_id, taken, diameter) =
+            (self.next_id(), self.taken(), entry.diameter.unwrap_or_default().high);
         let places = crystal::places(shape, corners, (lattice, diameter), &taken, MOST);
         drop(taken);
         let key = |k: &str| format!("fill.{index}.{k}");

@@ -45,14 +45,14 @@ impl PlanBuilder<'_> {
     pub(super) fn grading(&self, grains: &EntryGrains) -> Result<Grading> {
         let Some(value) = grains.keys.sizes else {
             let GrainMaterial { index, density } =
-                self.grain(&grains.key("material"), grains.keys.material)?;
-            return Ok(Grading::uniform(grains.keys.diameter, index, density));
+                self.grain(&grains.key("material"), grains.keys.material.unwrap_or_default())?;
+            return Ok(Grading::uniform(grains.keys.diameter.unwrap_or_default(), index, density));
         };
         let parts = grains.parts(self, value)?;
         let class = |part: &Part| {
             let (key, name) = match &part.material {
                 Some(name) => (grains.key("sizes"), name.as_str()),
-                None => (grains.key("material"), grains.keys.material),
+                None => (grains.key("material"), grains.keys.material.unwrap_or_default()),
             };
             let GrainMaterial { index: material, density } = self.grain(&key, name)?;
             let spread = match (part.of_curve, grains.by()) {
@@ -77,7 +77,7 @@ impl EntryGrains<'_> {
 
     /// The largest diameter [m], for stages that are cut before anything is planned.
     pub(super) fn largest(&self, plan: &PlanBuilder) -> Result<f64> {
-        let Some(value) = self.keys.sizes else { return Ok(self.keys.diameter.high) };
+        let Some(value) = self.keys.sizes else { return Ok(self.keys.diameter.unwrap_or_default().high) };
         Ok(self.parts(plan, value)?.iter().map(|p| p.range.high).fold(0.0, f64::max))
     }
 

@@ -45,7 +45,7 @@ impl PlanBuilder<'_> {
     fn beyond_open_sides(&mut self) {
         for (i, entry) in self.keys().wall.iter().enumerate() {
             let (Some(corners), Some(faces)) = (entry.cuboid, &entry.faces) else { continue };
-            let open = Face::ALL.into_iter().filter(|face| !faces.contains(face));
+            let open = Face::ALL.iter().copied().filter(|face| !faces.contains(face));
             let found = open.map(|face| (face, self.beyond(&corners, face))).find(|(_, count)| *count > 0);
             let Some((face, count)) = found else { continue };
             let name = entry.name.clone().unwrap_or_else(|| format!("wall.{i}"));

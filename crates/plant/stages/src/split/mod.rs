@@ -118,7 +118,7 @@ material = "m"
         let (down, gone) = cut(Stage::Downstream, "0,0,0,0,0,-1", Some(0.2)).unwrap();
         assert_eq!(gone, ["fill.0"]);
         let scene = Scene::new("down", down, &[], Path::new("")).unwrap();
-        assert_eq!((scene.keys.fill[0].shape.as_str(), scene.keys.inlet.len()), ("box:0,0,-2,1,1,-1", 1));
+        assert_eq!((scene.keys.fill[0].shape.0.as_str(), scene.keys.inlet.len()), ("box:0,0,-2,1,1,-1", 1));
         assert_eq!(scene.keys.first_id, 2_000_000_000);
     }
 

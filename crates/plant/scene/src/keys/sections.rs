@@ -1,0 +1,222 @@
+//! The keys of scenes as people read them: sections of docs/reference/scene.md, and the text of `dem-run --keys`.
+
+use super::SceneKeys;
+use super::table::{Key, REQUIRED, Shape, dotted};
+use super::value::KeyValue;
+use std::fmt::Write;
+
+/// A key as people read about it.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// Its name; with dots where it stands in a table inside of the section.
+    pub name: String,
+    /// Its type in words.
+    pub kind: String,
+    /// Unit of plain numbers; "" for none, "file" for the name of a file.
+    pub unit: &'static str,
+    /// The numbers that it takes, in words.
+    pub range: String,
+    /// What holds without it, in words.
+    pub default: String,
+    /// What it means.
+    pub doc: String,
+    /// A value in TOML; "" for a table.
+    pub example: String,
+    /// The table that is its value, if it is one.
+    pub(crate) table: Option<Shape>,
+}
+
+impl Row {
+    /// Whether the table cannot do without it.
+    pub fn is_required(&self) -> bool {
+        self.default == REQUIRED
+    }
+}
+
+impl From<&Key> for Row {
+    fn from(key: &Key) -> Row {
+        Row {
+            name: key.name.to_owned(),
+            kind: if key.unit == "file" { "file".to_owned() } else { (key.kind)() },
+            unit: if key.unit == "file" { "" } else { key.unit },
+            range: key.range.to_string(),
+            default: key.default.to_owned(),
+            doc: key.doc.trim().trim_end_matches('.').to_owned(),
+            example: key.example.to_owned(),
+            table: (key.table)(),
+        }
+    }
+}
+
+/// A table of keys, and those of the small tables in it.
+#[derive(Debug, Clone)]
+pub struct Section {
+    /// Dotted key of the table; "" for the top level.
+    pub path: String,
+    /// Whether there may be many of it: `[[fill]]`.
+    pub many: bool,
+    /// Its keys.
+    pub rows: Vec<Row>,
+}
+
+/// Every key of a scene.
+pub fn sections() -> Vec<Section> {
+    let mut all = Vec::new();
+    SceneKeys::table().into_iter().for_each(|shape| add(&mut all, "", false, &shape));
+    all
+}
+
+/// Every key with its dotted path, without indices: `wall.motion.rotate.about`.
+pub fn rows() -> Vec<(String, Row)> {
+    let of = |section: Section| {
+        let path = section.path;
+        section.rows.into_iter().map(move |row| (dotted(&path, &row.name), row))
+    };
+    sections().into_iter().flat_map(of).collect()
+}
+
+/// Adds a section, and those of the tables in it.
+fn add(all: &mut Vec<Section>, path: &str, many: bool, shape: &Shape) {
+    let (mut rows, mut below) = (Vec::new(), Vec::new());
+    flatten(&mut rows, &mut below, "", shape);
+    if path.is_empty() {
+        // A table of the top level is a section, and no key.
+        rows.retain(|row: &Row| row.table.is_none());
+    }
+    all.push(Section { path: path.to_owned(), many, rows });
+    for (name, kind, shape) in below {
+        add(all, &dotted(path, &name), kind.starts_with("list"), &shape);
+    }
+}
+
+/// The keys of a table with those of the small tables in it, and the tables that have sections of their own; of those of one shape the first.
+fn flatten(rows: &mut Vec<Row>, below: &mut Vec<(String, String, Shape)>, at: &str, shape: &Shape) {
+    for row in &shape.rows {
+        let (name, table) = (dotted(at, &row.name), row.table.clone());
+        rows.push(Row { name: name.clone(), ..row.clone() });
+        match table {
+            Some(table) if !table.section => flatten(rows, below, &name, &table),
+            Some(table) if below.iter().all(|(.., other)| other.name != table.name) => {
+                below.push((name, row.kind.clone(), table));
+            }
+            _ => {}
+        }
+    }
+}
+
+impl Section {
+    /// Its head in a scene: `[time]`, `[[fill]]`; "" for the top level.
+    pub fn head(&self) -> String {
+        match (&self.path[..], self.many) {
+            ("", _) => String::new(),
+            (path, true) => format!("[[{path}]]"),
+            (path, false) => format!("[{path}]"),
+        }
+    }
+
+    /// Its table in Markdown.
+    pub fn markdown(&self) -> String {
+        let mut out = String::from("| key | type | unit | default | meaning |\n|---|---|---|---|---|\n");
+        for row in &self.rows {
+            let unit = if row.unit.is_empty() { "–" } else { row.unit };
+            let kind =
+                if row.range.is_empty() { row.kind.clone() } else { format!("{}, {}", row.kind, row.range) };
+            // Writing to a string does not fail.
+            let _ = writeln!(out, "| `{}` | {kind} | {unit} | {} | {} |", row.name, row.default, row.doc);
+        }
+        out
+    }
+}
+
+/// The reference as a text: a scene with an example of each key, which a comment explains.
+pub fn reference() -> String {
+    let mut out = String::new();
+    for section in sections() {
+        let head = section.head();
+        let lead = if out.is_empty() { "" } else { "\n" };
+        let _ = if head.is_empty() { Ok(()) } else { writeln!(out, "{lead}{head}") };
+        for row in section.rows.iter().filter(|row| !row.example.is_empty()) {
+            let unit = if row.unit.is_empty() { String::new() } else { format!(" [{}]", row.unit) };
+            let range = if row.range.is_empty() { String::new() } else { format!(", {}", row.range) };
+            let line = format!("{} = {}", row.name, row.example);
+            let default = match &row.default[..] {
+                "–" => String::new(),
+                words if ["required", "this ", "with "].iter().any(|w| words.starts_with(w)) => {
+                    format!("; {words}")
+                }
+                value => format!("; default: {value}"),
+            };
+            let _ = writeln!(out, "{line:<34} # {}{unit}{range}{default}. {}", row.kind, row.doc);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::{Text, parse};
+
+    /// The least that a section needs around one key to be read: its required keys.
+    fn with(section: &Section, row: &Row) -> String {
+        let inside =
+            |row: &Row| row.name.rsplit_once('.').map_or(String::new(), |(table, _)| table.to_owned());
+        let own = inside(row);
+        let needed = |other: &&Row| {
+            other.name != row.name
+                && other.is_required()
+                && (inside(other).is_empty() || inside(other) == own)
+        };
+        let lines = section.rows.iter().filter(needed).chain([row]).filter(|row| !row.example.is_empty());
+        let lines: Vec<String> = lines.map(|row| format!("{} = {}", row.name, row.example)).collect();
+        let outer = section.path.split_once('.').filter(|(outer, _)| *outer == "wall");
+        let before = outer.map_or("", |_| "[[wall]]\n");
+        format!("{before}{}\n{}\n", section.head(), lines.join("\n"))
+    }
+
+    #[test]
+    fn every_example_is_read() {
+        for section in sections() {
+            for row in section.rows.iter().filter(|row| !row.example.is_empty()) {
+                let scene = with(&section, row);
+                if let Err(e) = parse(&Text::new("scene.toml", scene.clone())) {
+                    panic!("{}.{}: {e}\n{scene}", section.path, row.name);
+                }
+            }
+        }
+    }
+
+    /// A default that is a value in TOML is the value that holds without the key.
+    #[test]
+    fn defaults_are_those_of_the_keys() {
+        for section in sections().iter().filter(|section| section.path != "contact") {
+            for row in section.rows.iter().filter(|row| !row.example.is_empty() && !row.is_required()) {
+                let default = Row { example: row.default.replace("1/min", ""), ..row.clone() };
+                let read = |row: &Row| parse(&Text::new("scene.toml", with(section, row)));
+                let (Ok(given), Ok(set)) = (read(&default), read(row)) else { continue };
+                let without = Row { example: String::new(), ..row.clone() };
+                let Ok(absent) = read(&without) else { continue };
+                if format!("{absent:?}")
+                    .contains(&format!("{}: None", row.name.rsplit('.').next().unwrap_or_default()))
+                {
+                    continue;
+                }
+                assert_eq!(given, absent, "{}.{} = {}", section.path, row.name, row.default);
+                assert_ne!(set, absent, "{}.{}: the example is the default", section.path, row.name);
+            }
+        }
+    }
+
+    #[test]
+    fn the_text_has_every_key() {
+        let text = reference();
+        for section in sections() {
+            for row in section.rows.iter().filter(|row| !row.example.is_empty()) {
+                assert!(
+                    text.contains(&format!("\n{} = {}", row.name, row.example))
+                        || text.starts_with(&row.name)
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! Tables of keys. [`table!`] declares each key of a scene once: name, type, default, unit, range, meaning, example. It becomes the field
+//! of a struct, the reader of that field, the check of its range, and a row of docs/reference/scene.md and of `dem-run --keys`.
+
+use super::sections::Row;
+use super::value::{KeyUnit, KeyValue};
+use crate::check::Check;
+use crate::error::Result;
+use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// The numbers that a key takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Range {
+    /// What its type takes; other keys may say more.
+    Any,
+    /// Finite, and no larger than a quantity of its unit may be.
+    Finite,
+    /// Above 0.
+    Positive,
+    /// Two numbers above 0, the smaller first.
+    Pair,
+    /// From 0.
+    FromZero,
+    /// From the first to the second, both included.
+    Within(f64, f64),
+    /// Above 0, up to this.
+    UpTo(f64),
+    /// Of Poisson's ratio.
+    Poisson,
+    /// A name without control characters: it goes into scripts and tables.
+    Name,
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Range::Any | Range::Finite => Ok(()),
+            Range::Positive | Range::Pair => f.write_str("above 0"),
+            Range::FromZero => f.write_str("from 0"),
+            Range::Within(low, high) => write!(f, "{} to {}", geom::Shown(*low), geom::Shown(*high)),
+            Range::UpTo(high) => write!(f, "above 0, up to {}", geom::Shown(*high)),
+            Range::Poisson => f.write_str(record::POISSON),
+            Range::Name => f.write_str("without control characters"),
+        }
+    }
+}
+
+/// One key of a table.
+#[derive(Debug, Clone, Copy)]
+pub struct Key {
+    /// Its name.
+    pub name: &'static str,
+    /// Its type in words.
+    pub kind: fn() -> String,
+    /// Unit of plain numbers; "" for none, "file" for the name of a file.
+    pub unit: &'static str,
+    /// What holds without it, in words; [`REQUIRED`] where nothing does.
+    pub default: &'static str,
+    /// The numbers that it takes.
+    pub range: Range,
+    /// What it means.
+    pub doc: &'static str,
+    /// A value in TOML; "" for a table.
+    pub example: &'static str,
+    /// The table that is its value, if it is one.
+    pub table: fn() -> Option<Shape>,
+}
+
+/// The default of a key that must be there.
+pub const REQUIRED: &str = "required";
+
+/// What a table looks like from outside.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// Name of its struct: one shape may stand at several places.
+    pub name: &'static str,
+    /// Whether people read about it in a section of its own; otherwise with the key that holds it.
+    pub section: bool,
+    /// Its keys.
+    pub rows: Vec<Row>,
+}
+
+/// A table of a scene, as [`table!`] declares it.
+pub trait Table: Sized {
+    /// Name of the struct.
+    const NAME: &'static str;
+    /// Whether it has a section of its own.
+    const SECTION: bool;
+    /// Its keys.
+    const KEYS: &'static [Key];
+    /// Their names.
+    const NAMES: &'static [&'static str];
+
+    /// Reads it.
+    ///
+    /// # Errors
+    /// Unknown and missing keys, values of another type.
+    fn read_keys<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error>;
+
+    /// Checks the range of each value; `at` is the dotted key of the table, "" for the scene.
+    ///
+    /// # Errors
+    /// The first value out of its range.
+    fn check_keys(&self, check: &Check, at: &str) -> Result<()>;
+}
+
+impl<T: Table> KeyValue for T {
+    fn kind() -> String {
+        "table".to_owned()
+    }
+
+    fn table() -> Option<Shape> {
+        Some(Shape { name: T::NAME, section: T::SECTION, rows: T::KEYS.iter().map(Row::from).collect() })
+    }
+
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<T, D::Error> {
+        from.deserialize_map(TableVisitor(PhantomData))
+    }
+
+    fn check(&self, check: &Check, at: &str, _: &Key) -> Result<()> {
+        self.check_keys(check, at)
+    }
+}
+
+pub(super) struct TableVisitor<T>(pub PhantomData<T>);
+
+impl<'de, T: Table> Visitor<'de> for TableVisitor<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "struct {}", T::NAME)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+        T::read_keys(map)
+    }
+}
+
+/// A key that is one of these.
+pub(super) struct OneOf(pub &'static [&'static str]);
+
+impl<'de> DeserializeSeed<'de> for OneOf {
+    type Value = &'static str;
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<&'static str, D::Error> {
+        from.deserialize_identifier(self)
+    }
+}
+
+impl Visitor<'_> for OneOf {
+    type Value = &'static str;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a key")
+    }
+
+    fn visit_str<E: Error>(self, key: &str) -> Result<&'static str, E> {
+        self.0.iter().find(|k| **k == key).copied().ok_or_else(|| E::unknown_field(key, self.0))
+    }
+}
+
+/// The dotted key of a key in the table at `at`.
+pub(super) fn dotted(at: &str, name: &str) -> String {
+    if at.is_empty() { name.to_owned() } else { format!("{at}.{name}") }
+}
+
+/// Declares a table. A row is `/// meaning`, then `field: Type = default, unit, range, example;` where the default is `required`,
+/// `default(VALUE)`, or `absent("in words")` for that of the type; `field as "key"` where the key is a word of Rust.
+macro_rules! table {
+    (
+        $(#[$about:meta])*
+        $name:ident $place:ident { $(
+            $(#[doc = $doc:literal])+
+            $field:ident $(as $key:literal)?: $type:ty =
+                $how:ident $(($default:expr))?, $unit:literal, $range:ident $(($($limit:expr),*))?, $example:literal;
+        )* }
+    ) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, PartialEq)]
+        pub struct $name { $($(#[doc = $doc])+ pub $field: $type,)* }
+
+        impl $crate::keys::table::Table for $name {
+            const NAME: &'static str = stringify!($name);
+            const SECTION: bool = table!(@section $place);
+            const NAMES: &'static [&'static str] = &[$(table!(@key $field $($key)?)),*];
+            const KEYS: &'static [$crate::keys::table::Key] = &[$($crate::keys::table::Key {
+                name: table!(@key $field $($key)?),
+                kind: <$type as $crate::keys::value::KeyValue>::kind,
+                unit: $unit,
+                default: table!(@shown $how $(($default))?),
+                range: $crate::keys::table::Range::$range $(($($limit),*))?,
+                doc: concat!($($doc),+),
+                example: $example,
+                table: <$type as $crate::keys::value::KeyValue>::table,
+            }),*];
+
+            fn read_keys<'de, A: serde::de::MapAccess<'de>>(mut map: A) -> std::result::Result<Self, A::Error> {
+                $(let mut $field: Option<$type> = None;)*
+                while let Some(key) = map.next_key_seed($crate::keys::table::OneOf(Self::NAMES))? {
+                    $(if key == table!(@key $field $($key)?) {
+                        let unit = $crate::keys::value::KeyUnit::of($unit);
+                        $field = Some(map.next_value_seed($crate::keys::value::In::<$type>::new(unit))?);
+                        continue;
+                    })*
+                }
+                Ok($name { $($field: match $field {
+                    Some(value) => value,
+                    None => table!(@else $type, table!(@key $field $($key)?), $how $(($default))?),
+                },)* })
+            }
+
+            fn check_keys(&self, check: &$crate::check::Check, at: &str) -> $crate::error::Result<()> {
+                let mut keys = Self::KEYS.iter();
+                $(if let Some(key) = keys.next() {
+                    let at = $crate::keys::table::dotted(at, key.name);
+                    $crate::keys::value::KeyValue::check(&self.$field, check, &at, key)?;
+                })*
+                Ok(())
+            }
+        }
+    };
+    (@section section) => { true };
+    (@section inline) => { false };
+    (@key $field:ident) => { stringify!($field) };
+    (@key $field:ident $key:literal) => { $key };
+    (@shown required) => { $crate::keys::table::REQUIRED };
+    (@shown default($value:expr)) => { stringify!($value) };
+    (@shown absent($words:expr)) => { $words };
+    (@else $type:ty, $key:expr, required) => { return Err(serde::de::Error::missing_field($key)) };
+    (@else $type:ty, $key:expr, default($value:expr)) => { $value };
+    (@else $type:ty, $key:expr, absent($words:expr)) => { <$type>::default() };
+}
+
+pub(super) use table;
+
+/// Declares an enum whose variants are words of a scene: `/// meaning`, then `Variant "word"`.
+macro_rules! words {
+    (
+        $(#[$about:meta])*
+        $name:ident { $($(#[$of:meta])* $variant:ident $word:literal,)* }
+    ) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum $name { $($(#[$of])* $variant,)* }
+
+        impl $name {
+            /// All of them.
+            pub const ALL: &'static [$name] = &[$($name::$variant),*];
+
+            /// Its word in scenes.
+            pub fn name(self) -> &'static str {
+                match self { $($name::$variant => $word,)* }
+            }
+        }
+
+        impl $crate::keys::value::KeyValue for $name {
+            fn kind() -> String {
+                $crate::keys::value::quoted($name::ALL.iter().map(|word| word.name()))
+            }
+
+            fn read<'de, D: serde::Deserializer<'de>>(_: $crate::keys::value::KeyUnit, from: D) -> std::result::Result<$name, D::Error> {
+                $crate::keys::value::word(from, $name::ALL, $name::name)
+            }
+        }
+    };
+}
+
+pub(super) use words;

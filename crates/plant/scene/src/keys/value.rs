@@ -1,0 +1,281 @@
+//! Values of keys: how each type is read, what it is called, and which of its numbers a range is about.
+//!
+//! Numbers are plain in the unit of their key, or text with a unit such as "8 mm". Lists may be written as a list of numbers and texts, or as
+//! one text with commas.
+
+use super::table::{Key, Range, Shape};
+use crate::check::Check;
+use crate::error::Result as Checked;
+use dem::setup::{ZoneMotion, ZoneTest};
+use geom::units;
+use serde::Deserialize;
+use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// The unit of a key, and a text that it takes.
+#[derive(Clone, Copy)]
+pub struct KeyUnit {
+    /// Unit of plain numbers; "" for none.
+    pub unit: &'static str,
+    /// An example of a text.
+    pub such: &'static str,
+}
+
+impl KeyUnit {
+    /// That of this name.
+    pub fn of(unit: &'static str) -> KeyUnit {
+        let such = match unit {
+            "m" => "8 mm",
+            "m²" => "20 cm²",
+            "m³" => "2 cm³",
+            "s" => "20 ms",
+            "kg" => "2 t",
+            "kg/s" => "1.5 t/h",
+            "1/s" => "100 1/s",
+            "m/s" => "50 mm/s",
+            "m/s²" => "9.81 m/s²",
+            "rad" => "15 deg",
+            "rad/s" => "30 rpm",
+            "rpm" => "8 rpm",
+            "Hz" => "50 Hz",
+            "N" => "2 kN",
+            "N/m" => "2 kN/m",
+            "N·s/m" => "2 kN·s/m",
+            "Pa" => "5 MPa",
+            "Pa/m" => "2 GPa/m",
+            "Pa·s" => "1 cP",
+            "J" => "1 mJ",
+            "J/m²" => "50 mJ/m²",
+            "J/m³" => "20 kJ/m³",
+            "kg/m³" => "2.5 g/cm³",
+            _ => "40 %",
+        };
+        KeyUnit { unit, such }
+    }
+
+    /// The number in a text.
+    pub fn parse<E: Error>(self, text: &str) -> Result<f64, E> {
+        units::parse(text, self.unit).map_err(|e| {
+            let plain = if self.unit.is_empty() {
+                "a number".to_owned()
+            } else {
+                format!("a number [{}]", self.unit)
+            };
+            E::custom(format_args!("{e}; expected {plain}, or text with a unit, such as \"{}\"", self.such))
+        })
+    }
+
+    pub(super) fn expecting(self, f: &mut fmt::Formatter, what: &str) -> fmt::Result {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
+        write!(f, "{what}{unit}, such as 0.5 or \"{}\"", self.such)
+    }
+}
+
+/// Whether a text is meant as a number, with or without a unit.
+pub(super) fn begins_as_number(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+}
+
+/// A value of a key.
+pub trait KeyValue: Sized {
+    /// Its type in words.
+    fn kind() -> String;
+
+    /// Reads it; plain numbers are in `unit`.
+    ///
+    /// # Errors
+    /// A value of another type, a text that is no number of this unit.
+    fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<Self, D::Error>;
+
+    /// The table that it is, if it is one.
+    fn table() -> Option<Shape> {
+        None
+    }
+
+    /// The numbers that a range is about.
+    fn numbers(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Checks that they are in the range of their key.
+    ///
+    /// # Errors
+    /// The first that is not.
+    fn check(&self, check: &Check, at: &str, key: &Key) -> Checked<()> {
+        check.range(at, key, &self.numbers())
+    }
+}
+
+/// Reads a value in a unit inside another one.
+pub(super) struct In<T>(KeyUnit, PhantomData<T>);
+
+impl<T> In<T> {
+    pub fn new(unit: KeyUnit) -> In<T> {
+        In(unit, PhantomData)
+    }
+}
+
+impl<'de, T: KeyValue> DeserializeSeed<'de> for In<T> {
+    type Value = T;
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<T, D::Error> {
+        T::read(self.0, from)
+    }
+}
+
+/// Words in quotation marks, with commas.
+pub(super) fn quoted<'a>(words: impl Iterator<Item = &'a str>) -> String {
+    words.map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ")
+}
+
+/// Reads a word that is one of these.
+pub(super) fn word<'de, D: Deserializer<'de>, T: Copy>(
+    from: D,
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+) -> Result<T, D::Error> {
+    from.deserialize_any(Word { all, name })
+}
+
+struct Word<T: 'static> {
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+}
+
+impl<T: Copy> Visitor<'_> for Word<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "one of {}", quoted(self.all.iter().map(|word| (self.name)(*word))))
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<T, E> {
+        let known = self.all.iter().find(|word| (self.name)(**word) == text).copied();
+        known.ok_or_else(|| unknown_word(text, self.all.iter().map(|word| (self.name)(*word))))
+    }
+}
+
+/// The error for a word that is none of those known, as serde writes it.
+pub(super) fn unknown_word<'a, E: Error>(word: &str, known: impl Iterator<Item = &'a str>) -> E {
+    let known = known.map(|k| format!("`{k}`")).collect::<Vec<_>>().join(", ");
+    E::custom(format_args!("unknown variant `{word}`, expected one of {known}"))
+}
+
+/// Types that serde reads, and what they are called.
+macro_rules! plain_values {
+    ($($type:ty, $kind:literal;)*) => { $(
+        impl KeyValue for $type {
+            fn kind() -> String {
+                $kind.to_owned()
+            }
+
+            fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<$type, D::Error> {
+                <$type>::deserialize(from)
+            }
+        }
+    )* };
+}
+
+plain_values! {
+    bool, "true/false";
+    toml::Value, "list or text or table";
+    [String; 2], "2 names";
+    ZoneMotion, "\"constant\", \"ballistic\", \"recorded\"";
+    ZoneTest, "\"centre\", \"lowest\"";
+}
+
+/// Whole numbers.
+macro_rules! whole_numbers {
+    ($($type:ty)*) => { $(
+        impl KeyValue for $type {
+            fn kind() -> String {
+                "integer".to_owned()
+            }
+
+            fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<$type, D::Error> {
+                <$type>::deserialize(from)
+            }
+
+            fn numbers(&self) -> Vec<f64> {
+                vec![*self as f64]
+            }
+        }
+    )* };
+}
+
+whole_numbers! { u32 u64 }
+
+impl KeyValue for String {
+    fn kind() -> String {
+        "text".to_owned()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<String, D::Error> {
+        String::deserialize(from)
+    }
+
+    fn check(&self, check: &Check, at: &str, key: &Key) -> Checked<()> {
+        if key.range == Range::Name { check.name(at, self) } else { Ok(()) }
+    }
+}
+
+/// TOML has no null: a key that is there has a value.
+impl<T: KeyValue> KeyValue for Option<T> {
+    fn kind() -> String {
+        T::kind()
+    }
+
+    fn table() -> Option<Shape> {
+        T::table()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<Option<T>, D::Error> {
+        T::read(unit, from).map(Some)
+    }
+
+    fn check(&self, check: &Check, at: &str, key: &Key) -> Checked<()> {
+        self.as_ref().map_or(Ok(()), |value| value.check(check, at, key))
+    }
+}
+
+/// Reads a list of any length.
+struct List<T>(KeyUnit, PhantomData<T>);
+
+impl<'de, T: KeyValue> Visitor<'de> for List<T> {
+    type Value = Vec<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match (T::table(), self.0.unit) {
+            (Some(_), _) => f.write_str("a sequence"),
+            (None, "") => write!(f, "a list of {}", T::kind()),
+            (None, unit) => write!(f, "a list of {} [{unit}]", T::kind()),
+        }
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Vec<T>, A::Error> {
+        let mut list = Vec::new();
+        while let Some(value) = seq.next_element_seed(In::<T>::new(self.0))? {
+            list.push(value);
+        }
+        Ok(list)
+    }
+}
+
+impl<T: KeyValue> KeyValue for Vec<T> {
+    fn kind() -> String {
+        format!("list of {}", T::kind())
+    }
+
+    fn table() -> Option<Shape> {
+        T::table()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<Vec<T>, D::Error> {
+        from.deserialize_seq(List(unit, PhantomData))
+    }
+
+    fn check(&self, check: &Check, at: &str, key: &Key) -> Checked<()> {
+        self.iter().enumerate().try_for_each(|(i, value)| value.check(check, &format!("{at}.{i}"), key))
+    }
+}
