@@ -1,12 +1,12 @@
 //! A plan in the making: what the steps of this folder read and add to.
 
-use super::Placing;
-use super::insertion::Insertion;
-use super::obstacles::Obstacles;
 use crate::check::Check;
 use crate::error::{Result, SceneError};
 use crate::input::{InletSource, RunContacts};
 use crate::keys::{self, SceneKeys, Side};
+use crate::plan::Placing;
+use crate::plan::grains::obstacles::Obstacles;
+use crate::plan::insertions::insertion::Insertion;
 use crate::scene::Scene;
 use dem::setup::{self, EntryBonds, Particle, Zone};
 use geom::Shape;
@@ -85,7 +85,7 @@ pub(super) struct PlanBuilder<'a> {
     pub streams: Vec<PlannedInlet>,
     pub read: FilesRead,
     pub warnings: Vec<String>,
-    /// [`super::Plan::places`].
+    /// [`crate::plan::Plan::places`].
     pub places: Map,
     /// Role and SHA-256 of what was read.
     pub inputs: Vec<(String, String)>,

@@ -1,9 +1,9 @@
 //! The domain of a plan: which axes are periodic, how long they are and what they follow.
 
-use super::builder::PlanBuilder;
 use crate::error::Result;
 use crate::input::{STRAIN_COLUMNS, read_domain, read_load};
 use crate::keys::Strain;
+use crate::plan::builder::PlanBuilder;
 use dem::setup::{self, Target};
 
 /// Lowest and highest coordinate [m] of each axis that is periodic.

@@ -1,54 +1,27 @@
 //! From a scene to a plan: the engine's setup, and what comes in later.
 //!
-//! [`Scene::plan`] reads as the order of the steps: shapes of clumps, particles, walls, inlets, insertions, outlets, and then the setup
-//! ([`setup`]) with contacts, bonds and time step. Each step is a file that adds to the [`builder`]; none uses another step but the tools
-//! of placing ([`packing`], [`random`], [`fill`]). Warnings about implausible values come last ([`warnings`]).
+//! [`Scene::plan`] reads as the order of the steps: shapes of [`clumps`], [`grains`], [`walls`], inlets and outlets ([`zones`]), [`insertions`],
+//! and then the [`setup`] with the [`laws`] of contacts and bonds and the time step. Each room has the steps of its kind; each step adds to the
+//! [`builder`]. [`warnings`] about implausible values come last.
 
-mod accuracy;
-mod adhesive_walls;
-mod below;
-mod bonds;
 mod builder;
-mod clump_placement;
-mod clump_shapes;
-mod contacts;
-mod crystal;
+mod clumps;
 mod domain;
-mod earlier_contacts;
-mod feed;
-mod fill;
-mod grading;
-mod images;
-mod impact;
-mod implausible;
-mod insertion;
+mod grains;
 mod insertions;
-mod kept_clear;
-mod lattice;
-mod obstacles;
-mod packing;
-mod particles;
-mod random;
-mod same_zone;
-mod section;
-mod servos;
+mod laws;
 mod setup;
-mod sizes;
-mod solids;
-mod total;
-mod wall_contacts;
 mod walls;
 mod warnings;
-mod windows;
 mod zones;
 
-pub use below::Below;
 pub use builder::PlannedInlet;
-pub use contacts::{dropped, most_specific};
-pub use implausible::{SOFT, density as implausible_density};
-pub use insertion::Insertion;
-pub use packing::bounds;
-pub use solids::wall as solid;
+pub use grains::packing::bounds;
+pub use insertions::insertion::Insertion;
+pub use laws::contacts::{dropped, most_specific};
+pub use walls::below::Below;
+pub use walls::solids::wall as solid;
+pub use warnings::implausible::{SOFT, density as implausible_density};
 pub use zones::SCALE_SLACK;
 
 use crate::error::{Result, SceneError};

@@ -1,9 +1,11 @@
 //! The engine's setup of a plan whose particles, walls and zones are known.
 
-use super::builder::PlanBuilder;
-use super::{NO_DENSITY, Plan, accuracy, bonds, contacts, impact};
+use super::laws::{accuracy, bonds, contacts};
+use super::warnings::impact;
+use super::{NO_DENSITY, Plan};
 use crate::error::Result;
 use crate::keys::{Arithmetic, BackThroughZone, DragLaw, Patches, Sampling};
+use crate::plan::builder::PlanBuilder;
 use dem::setup::{self, CameBack, Guards, Setup, Step};
 use geom::Vec3;
 

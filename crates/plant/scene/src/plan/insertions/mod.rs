@@ -1,0 +1,126 @@
+//! `[[insert]]`: zones with a prescribed velocity, and what they insert.
+
+pub(in crate::plan) mod feed;
+pub(in crate::plan) mod insertion;
+pub(in crate::plan) mod section;
+pub(in crate::plan) mod total;
+pub(in crate::plan) mod windows;
+
+use crate::error::Result;
+use crate::keys::{Diameter, Insert};
+use crate::plan::builder::PlanBuilder;
+use crate::plan::grains::grading::Grading;
+use crate::plan::grains::sizes::EntryGrains;
+use crate::plan::insertions::feed::{Feed, Inserted, InsertedClump};
+use crate::plan::insertions::insertion::Insertion;
+use dem::setup::{ClumpScales, WallShape};
+use geom::{Shape, Shown, counted_as, sphere::volume};
+use record::Sizes;
+
+/// Ids that are kept for each insertion; it would have to insert this many to meet those of the next.
+const IDS: u32 = 200_000_000;
+
+impl PlanBuilder<'_> {
+    pub(in crate::plan) fn insertions(&mut self) -> Result<()> {
+        let mut first_id = self.next_id();
+        for (i, entry) in self.keys().insert.iter().enumerate() {
+            let shape = self.shape(&format!("insert.{i}.shape"), &entry.shape)?;
+            self.warn_of_grains_inside(i, entry, &shape);
+            let inserted = self.inserted(i, entry)?;
+            let feed = Feed::new(&self.check, self.inlets.len() as u32, i, entry, shape, inserted, first_id)?;
+            self.in_front_of_walls(&feed, &format!("insert.{i}.shape"), &entry.shape)?;
+            let short = feed.falls_short().map(|(key, value, why)| {
+                let later = if entry.until.is_some() { "a later until" } else { "a longer repeat" };
+                let cure = &format!("give a higher rate, or {later}");
+                self.check.wrong(&format!("insert.{i}.{key}"), value, &why, cure).to_string()
+            });
+            self.warnings.extend(short);
+            first_id = first_id.saturating_add(IDS);
+            self.inlets.push(feed.section.zone());
+            self.join(i, feed)?;
+        }
+        Ok(())
+    }
+
+    /// Warns of grains that lie in the shape of an insertion which begins with the run: what comes in there would lie on top of them.
+    fn warn_of_grains_inside(&mut self, i: usize, entry: &Insert, shape: &Shape) {
+        if entry.from > 0.0 {
+            return;
+        }
+        let inside = self.particles.iter().filter(|p| shape.contains(&p.position)).count();
+        if inside > 0 {
+            let grains = counted_as(inside, "grain", ["lies", "lie"]);
+            self.warnings.push(format!(
+                "insert.{i}.shape: {grains} in it at the start, and what is inserted would lie on top of them: move the shape, or start later (from)"
+            ));
+        }
+    }
+
+    /// Puts a feed with those that come through the same place: none of their particles are to touch.
+    fn join(&mut self, i: usize, feed: Feed) -> Result<()> {
+        let meeting = |group: &&mut Insertion| group.feeds.iter().any(|other| other.meets(&feed));
+        let Some(group) = self.insertions.iter_mut().find(meeting) else {
+            self.insertions.push(Insertion::new(feed));
+            return Ok(());
+        };
+        if let Some(other) = group.feeds.iter().find(|other| !other.moves_with(&feed)) {
+            let why =
+                format!("is another one than that of {}, which comes through the same place", other.key);
+            let (key, cure) =
+                (format!("insert.{i}.velocity"), "give both the same velocity, or move one of their shapes");
+            let [x, y, z] = self.scene.keys.insert[i].velocity.map(Shown);
+            return Err(self.check.wrong(&key, format!("[{x}, {y}, {z}] m/s"), &why, cure));
+        }
+        group.feeds.push(feed);
+        Ok(())
+    }
+
+    /// What an entry inserts; its sizes and materials are noted for the setup.
+    fn inserted(&mut self, i: usize, entry: &Insert) -> Result<Inserted> {
+        let Some(name) = &entry.clump else {
+            let grading = self.grading(&entry.sized(i))?;
+            let Diameter { low, high } = grading.range();
+            self.will_enter(Sizes { smallest: low / 2.0, largest: high / 2.0 }, true);
+            self.entry_materials.extend(grading.materials());
+            return Ok(Inserted { grading, clump: None, ids: 1 });
+        };
+        let index = self.clump(&format!("insert.{i}.clump"), name)?;
+        let shape = &self.clumps.shapes[index as usize];
+        let scale = entry.scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
+        let (least, most) = shape.radii();
+        let (reach, density) = (shape.reach(), self.materials[shape.material as usize].density);
+        let size = 2.0 * reach;
+        let range = Diameter { low: scale.low * size, high: scale.high * size };
+        let inserted = Inserted {
+            grading: Grading::uniform(range, shape.material, shape.mass(1.0, density) / volume(reach)),
+            clump: Some(InsertedClump { shape: index, size }),
+            ids: shape.spheres.len() as u32,
+        };
+        self.will_enter(Sizes { smallest: least * scale.low, largest: most * scale.high }, false);
+        self.clumps.entries.push(ClumpScales { shape: index, least: scale.low, most: scale.high });
+        Ok(inserted)
+    }
+
+    /// Refuses an insertion whose particles would become free behind a plane at rest.
+    fn in_front_of_walls(&self, feed: &Feed, key: &str, shape: &str) -> Result<()> {
+        for wall in self.walls.iter().filter(|w| !w.moves()) {
+            let WallShape::Plane(plane) = &wall.shape else { continue };
+            let lowest = feed.lowest_over(plane);
+            if lowest <= 0.0 {
+                let (behind, name) = (Shown(-lowest), &wall.name);
+                let why =
+                    format!("particles would become free {behind} m behind wall '{name}' (plane {plane})");
+                let cure = "move the insertion to the side that the plane's normal points to, or turn the normal round";
+                return Err(self.check.wrong(key, format!("\"{shape}\""), &why, cure));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Insert {
+    /// What it says about its grains.
+    pub(in crate::plan) fn sized(&self, index: usize) -> EntryGrains<'_> {
+        EntryGrains { entry: format!("insert.{index}"), keys: self.grains() }
+    }
+}

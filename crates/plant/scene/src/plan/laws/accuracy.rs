@@ -1,0 +1,184 @@
+//! The time step that an accuracy asks for: `accuracy = "1%"` in `[time]`.
+//!
+//! ```text
+//! ln safety = interpolated between the measured points (ln error, ln safety) of the law, at 0.9 of the error asked for
+//! ```
+//!
+//! The curve of each normal law, with contacts sampled and averaged, was measured with this engine (`data/impact-error.csv` says how, and `make -C pipelines
+//! accuracy` measures it again): the largest error in the restitution of a head-on impact of two equal spheres, over where in
+//! a step the contact begins, over restitutions, and, where stiffness grows with depth, at an impact nearly as deep as
+//! the guard lets it be, over the share of the critical step. Gentler impacts last longer, and friction makes the critical step
+//! shorter: both are resolved better at the same share. The tenth is kept for what lies between the points. What many grains do together may need more or less: cost-curve
+//! measures that.
+
+use crate::check::Check;
+use crate::error::Result;
+use crate::keys::{Accuracy, ELASTIC, SAFETY, SAFETY_ELASTIC, Sampling, Time};
+use dem::effects::{Slot, active, by_modulus};
+use dem::setup::ContactLaw;
+use std::collections::BTreeSet;
+
+/// The measured curves.
+const CURVES: &str = include_str!("../../../data/impact-error.csv");
+/// Share of the wanted error that the step is chosen for: the curves were measured at a few phases of a step only.
+const AIM: f64 = 0.9;
+/// Their file, for messages.
+const FILE: &str = "crates/plant/scene/data/impact-error.csv";
+
+/// A point of a curve: share of the critical step [–], error [–].
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Measured {
+    /// Share of the critical step [–].
+    safety: f64,
+    /// Largest error of the restitution at this share or a smaller one [–].
+    error: f64,
+}
+
+/// The measured curve of a law ("hooke", "hertz", "jkr") with contacts sampled or averaged, from small steps to large ones.
+fn curve(law: &str, sampling: Sampling) -> Vec<Measured> {
+    let contacts = match sampling {
+        Sampling::Sampled => "sampled",
+        Sampling::Averaged => "averaged",
+    };
+    let mut points: Vec<Measured> = Vec::new();
+    for line in CURVES.lines() {
+        let mut cells = line.split(',');
+        if cells.next() != Some(law) || cells.next() != Some(contacts) {
+            continue;
+        }
+        let mut number = || cells.next().and_then(|cell| cell.trim().parse::<f64>().ok());
+        if let Some((safety, error)) = number().zip(number()) {
+            points.push(Measured { safety, error });
+        }
+    }
+    points.sort_by(|a, b| a.safety.total_cmp(&b.safety));
+    // A larger step may have a smaller error by accident: it does not count.
+    let mut worst = 0.0;
+    for point in &mut points {
+        worst = point.error.max(worst);
+        point.error = worst;
+    }
+    points
+}
+
+/// The largest share of the critical step whose error is not above `wanted`; `None` when no measured one is.
+fn safety(curve: &[Measured], wanted: f64) -> Option<f64> {
+    let good = curve.iter().rposition(|p| p.error <= wanted)?;
+    let (a, Some(b)) = (curve.get(good)?, curve.get(good + 1)) else { return curve.last().map(|p| p.safety) };
+    if a.error <= 0.0 {
+        return Some(a.safety);
+    }
+    let share = libm::log(wanted / a.error) / libm::log(b.error / a.error);
+    Some(a.safety * libm::exp(share * libm::log(b.safety / a.safety)))
+}
+
+/// The share of the critical step that a scene asks for, and on which curve it relies, when it asks for an accuracy.
+///
+/// # Errors
+/// An accuracy that no measured step reaches.
+pub(in crate::plan) fn choose(
+    check: &Check,
+    time: &Time,
+    contacts: &[ContactLaw],
+) -> Result<(f64, Option<String>)> {
+    let Some(Accuracy(wanted)) = time.accuracy else {
+        let given = time.safety.map(|safety| (safety, None));
+        return Ok(given.unwrap_or_else(|| default_safety(time.contacts, contacts)));
+    };
+    let mut best: Option<(f64, &str)> = None;
+    for law in laws(contacts) {
+        let measured = curve(law, time.contacts);
+        let Some(smallest) = measured.first() else {
+            let why = format!("was not measured for law = \"{law}\"");
+            let cure = "give time.safety instead, and measure with cost-curve what it costs";
+            return Err(check.wrong("time.accuracy", percent(wanted), &why, cure));
+        };
+        let Some(safety) = safety(&measured, AIM * wanted) else {
+            let (least, at) = (percent(smallest.error / AIM), smallest.safety);
+            let reached = format!("{least} at {at} of the critical step");
+            let why = format!("is less than any measured step reaches with law \"{law}\": {reached}");
+            let cure = format!("ask for {least} or more, or give time.safety below {at} instead");
+            return Err(check.wrong("time.accuracy", percent(wanted), &why, &cure));
+        };
+        if best.is_none_or(|(least, _)| safety < least) {
+            best = Some((safety, law));
+        }
+    }
+    // Nothing touches: every step is exact.
+    let Some((safety, law)) = best else { return Ok((SAFETY, None)) };
+    let (wanted, shown) = (percent(wanted), geom::Shown(safety));
+    let curve = format!("from the measured error of an impact with law \"{law}\" ({FILE})");
+    Ok((safety, Some(format!("time.accuracy {wanted}: safety {shown}, {curve}"))))
+}
+
+/// The share of the critical step where a scene says nothing, and why where it is not the usual one.
+///
+/// Without friction a contact of a linear law lasts six steps at the usual share. Where it is sampled, its force begins with a jump of one step's
+/// length: a gas of 216 such grains gains 8 % of its energy a second at e = 1; at [`SAFETY_ELASTIC`] less than 0.6 %, of either sign. Averaged
+/// contacts gain more where the damping is not matched to the step: a gas of Walton and Braun's law at e = 1 trebles its energy in half a second,
+/// one with a `normal_damping` of 1e-3 kg/s gains 75 % in 0.3 s; at [`SAFETY_ELASTIC`] both stay within 3 % of a step of a tenth.
+/// Friction makes the critical step four times shorter, and dissipation hides the gain.
+fn default_safety(sampling: Sampling, contacts: &[ContactLaw]) -> (f64, Option<String>) {
+    let rubs = |law: &ContactLaw| active(law).any(|d| d.slot == Slot::Sliding && !(d.idle)(law));
+    let gains = |law: &ContactLaw| gains(sampling, law);
+    match contacts.iter().find_map(gains) {
+        Some(what) if !contacts.iter().any(rubs) => {
+            let how = if sampling == Sampling::Averaged { "an averaged" } else { "a sampled" };
+            let why = format!("{how} linear law without friction and with {what} gains energy");
+            (
+                SAFETY_ELASTIC,
+                Some(format!("safety {SAFETY_ELASTIC} instead of {SAFETY}: {why} in longer steps")),
+            )
+        }
+        _ => (SAFETY, None),
+    }
+}
+
+/// What makes a contact gain energy in longer steps; none where it does not.
+fn gains(sampling: Sampling, law: &ContactLaw) -> Option<String> {
+    let linear = by_modulus(law) || law.number("stiffness").is_some();
+    let given = law.number("normal_damping").map(|_| "a normal_damping that is given".to_owned());
+    let elastic = law.number("restitution").filter(|e| *e > ELASTIC);
+    let elastic = elastic.map(|e| format!("restitution {}", geom::Shown(e)));
+    let matched = sampling == Sampling::Averaged && !laws(std::slice::from_ref(law)).contains("walton_braun");
+    given.or(elastic.filter(|_| !matched)).filter(|_| linear)
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", geom::Shown(100.0 * share))
+}
+
+/// Names of the normal laws in force, each once.
+fn laws(contacts: &[ContactLaw]) -> BTreeSet<&'static str> {
+    let name = |law: &ContactLaw| active(law).find(|d| d.slot == Slot::Normal).map(|d| d.name);
+    contacts.iter().filter_map(name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn between_measured_points_it_is_interpolated() {
+        let point = |safety, error| Measured { safety, error };
+        let curve = [point(0.01, 1e-4), point(0.1, 1e-2), point(0.8, 0.3)];
+        assert!((safety(&curve, 1e-3).unwrap() - 0.1f64.powf(1.5)).abs() < 1e-12);
+        assert_eq!(safety(&curve, 1e-2), Some(0.1));
+        assert_eq!(safety(&curve, 0.5), Some(0.8));
+        assert_eq!(safety(&curve, 1e-5), None);
+    }
+
+    #[test]
+    fn every_law_has_a_curve_that_only_rises() {
+        for law in ["hooke", "hertz", "jkr"] {
+            let [sampled, averaged] = [Sampling::Sampled, Sampling::Averaged].map(|s| curve(law, s));
+            for curve in [&sampled, &averaged] {
+                assert!(curve.len() >= 5, "{law}: {curve:?}");
+                assert!(curve.windows(2).all(|w| w[0].safety < w[1].safety && w[0].error <= w[1].error));
+            }
+            // The same hundredth takes at least three times fewer steps.
+            let [before, after] = [sampled, averaged].map(|c| safety(&c, 0.009).expect("measured"));
+            assert!(after > 3.0 * before, "{law}: {before}, {after}");
+        }
+    }
+}
