@@ -9,6 +9,7 @@
 mod chunk;
 mod in_order;
 mod lengths;
+mod point_cloud;
 mod points;
 mod provenance;
 mod reader;

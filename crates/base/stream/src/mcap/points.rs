@@ -1,11 +1,10 @@
 //! Tables as `foxglove.PointCloud` messages.
 
+use super::point_cloud::{NumericType, PackedElementField, PointCloud, Pose, Quaternion, Timestamp, Vector3};
 use crate::{
     NumberType, Rows, Table, Values,
     rows::{column, pack, pack_rows},
 };
-use foxglove::messages::packed_element_field::NumericType;
-use foxglove::messages::{PackedElementField, PointCloud, Pose, Quaternion, Timestamp, Vector3};
 use prost::Message;
 use rayon::prelude::*;
 
@@ -83,10 +82,10 @@ impl Head<'_> {
         });
         let fields = fields.collect();
         let head = PointCloud {
-            timestamp: Some(Timestamp::new(
-                (time_ns / 1_000_000_000) as u32,
-                (time_ns % 1_000_000_000) as u32,
-            )),
+            timestamp: Some(Timestamp {
+                seconds: (time_ns / 1_000_000_000) as i64,
+                nanos: (time_ns % 1_000_000_000) as i32,
+            }),
             frame_id: frame_id.to_owned(),
             pose: Some(Pose {
                 position: Some(Vector3::default()),
@@ -150,9 +149,4 @@ fn field(field: &PackedElementField, data: &[u8], stride: usize) -> Result<Value
         ));
     }
     Ok(column::<false>(data, stride, offset, kind))
-}
-
-/// The schema of [`encode`]'s messages: name, encoding, descriptor.
-pub(super) fn schema() -> Option<foxglove::Schema> {
-    <PointCloud as foxglove::Encode>::get_schema()
 }

@@ -274,10 +274,10 @@ fn a_message_is_a_protobuf_point_cloud() {
     use prost::Message;
     let mut message = Vec::new();
     points::encode(&table(5), 1_500_000_000, "world", &mut message).unwrap();
-    let cloud = foxglove::messages::PointCloud::decode(&message[..]).unwrap();
+    let cloud = point_cloud::PointCloud::decode(&message[..]).unwrap();
     assert_eq!(cloud.encode_to_vec(), message);
     assert_eq!((cloud.point_stride, cloud.data.len(), cloud.fields.len()), (43, 215, 8));
-    assert_eq!(cloud.timestamp.map(|t| (t.sec(), t.nsec())), Some((1, 500_000_000)));
+    assert_eq!(cloud.timestamp.map(|t| (t.seconds, t.nanos)), Some((1, 500_000_000)));
     assert_eq!(points::decode(message).unwrap(), table(5));
 }
 

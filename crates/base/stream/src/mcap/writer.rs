@@ -1,7 +1,7 @@
 //! Writes a stream that is whole only when it was finished.
 
 use super::seek_buffer::{KEPT, SeekBuffer, SeekFn};
-use super::{END_OF_STREAM, McapError, PROVENANCE, Provenance, points};
+use super::{END_OF_STREAM, McapError, PROVENANCE, Provenance, point_cloud, points};
 use crate::{Rows, Table};
 use ::mcap::{WriteOptions, records};
 use std::{borrow::Borrow, collections::BTreeMap, io::Write};
@@ -149,11 +149,10 @@ impl<W: Write> Writer<W> {
         let mut message = std::mem::take(&mut self.message);
         let wrong = |what| McapError::Points { topic: topic.to_owned(), time_ns, what };
         encode(&mut message).map_err(wrong)?;
-        let channel = format!("foxglove.PointCloud {topic}");
+        let channel = format!("{} {topic}", point_cloud::NAME);
         if !self.channels.contains_key(&channel) {
-            let schema = points::schema().ok_or_else(|| wrong("it has no schema".to_owned()))?;
             let inner = self.inner()?;
-            let schema = inner.add_schema(&schema.name, &schema.encoding, &schema.data);
+            let schema = inner.add_schema(point_cloud::NAME, "protobuf", point_cloud::DESCRIPTOR);
             self.add_channel(&channel, schema.map_err(McapError::writing)?, topic, "protobuf")?;
         }
         self.send(&channel, time_ns, &message)?;

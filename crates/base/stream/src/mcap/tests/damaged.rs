@@ -72,7 +72,7 @@ fn a_cut_stream_is_refused_and_gives_what_came_before() {
 
 #[test]
 fn point_clouds_that_contradict_themselves_are_refused() {
-    use foxglove::messages::{PackedElementField, PointCloud};
+    use crate::mcap::point_cloud::{PackedElementField, PointCloud};
     use prost::Message;
     let refused = |stride, offset, kind, bytes: usize, expected: &str| {
         let field = PackedElementField { name: "x".into(), offset, r#type: kind };
