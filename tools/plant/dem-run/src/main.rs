@@ -61,7 +61,7 @@ struct Args {
     /// With --resume: begin the output with what that run has written until its checkpoint, so that it holds the whole run
     #[arg(long)]
     whole: bool,
-    /// Have the steps made by a GPU, with the same bits: cuda, or cuda:1 for the second one; local has its program run here (docs/how-to/gpu.md)
+    /// Compute the steps on a GPU, with the same bits as without: cuda, or cuda:1 for the second one; local runs the program of the GPU on the processor (docs/how-to/gpu.md)
     #[arg(long, value_name = "DEVICE")]
     device: Option<Accelerator>,
     /// Write one JSON line to stderr with each frame: time, rate, particles, energy, time left

@@ -13,7 +13,7 @@ pub fn boxes(painted: &Painted, options: &PictureOptions) -> [[f64; 4]; 2] {
     let [w, h] = [options.width, options.height].map(f64::from);
     let text = text_height(options.width, options.height);
     let margin = 2.2 * text;
-    let wide = |line: &str, height: f64| font::lay_out(line).1 * height / font::CAPITAL;
+    let wide = font::width;
     let time = options.time.map_or(0.0, |t| wide(&format!("t = {t:.3} s"), 1.15 * text));
     let lines = 1.0
         + if options.time.is_some() { 1.1 } else { 0.0 }

@@ -108,7 +108,7 @@ fn bar(pen: &mut Pen, [w, h]: [f64; 2], text: f64, key: &Key) {
 
 /// Width of the longest of some labels [pixel].
 fn widest(labels: &[String], height: f64) -> f64 {
-    labels.iter().map(|label| font::lay_out(label).1 * height / font::CAPITAL).fold(0.0, f64::max)
+    labels.iter().map(|label| font::width(label, height)).fold(0.0, f64::max)
 }
 
 /// A patch and a name for each kind.

@@ -2,6 +2,9 @@
 
 use super::font;
 
+/// A straight piece of a stroke, from one end to the other [pixel].
+pub type Piece = [[f64; 2]; 2];
+
 /// Where the given point of a text lies in it.
 #[derive(Clone, Copy)]
 pub enum Anchor {
@@ -38,25 +41,38 @@ pub struct Pen<'a> {
 impl Pen<'_> {
     /// Text that stands on `at`, its capitals `height` pixels high.
     pub fn text(&mut self, at: [f64; 2], height: f64, anchor: Anchor, text: &str) {
-        let unit = height / font::CAPITAL;
-        let (pieces, width) = font::lay_out(text);
         let shift = match anchor {
             Anchor::Left => 0.0,
-            Anchor::Middle => 0.5 * width,
-            Anchor::Right => width,
+            Anchor::Middle => 0.5 * font::width(text, height),
+            Anchor::Right => font::width(text, height),
         };
-        let place = |p: [f64; 2]| [at[0] + unit * (p[0] - shift), at[1] - unit * p[1]];
-        let pieces: Vec<font::Piece> = pieces.into_iter().map(|piece| piece.map(place)).collect();
-        let width = (0.135 * height).max(1.1);
+        let rim = 0.15 * height + 0.5;
+        let ink = font::ink(text, height, rim.ceil() as usize);
+        let [left, top] =
+            [(at[0] - shift).round() as i32 + ink.corner[0], at[1].round() as i32 - ink.corner[1]];
         // A rim of paper keeps text readable on grains.
-        let ink = std::mem::replace(&mut self.colour, self.paper);
-        self.strokes(&pieces, width + 0.3 * height);
-        self.colour = ink;
-        self.strokes(&pieces, width);
+        let letters = std::mem::replace(&mut self.colour, self.paper);
+        self.print([left, top], ink.size, &widened(&ink, rim));
+        self.colour = letters;
+        self.print([left, top], ink.size, &ink.shares);
+    }
+
+    /// Inks the shares of pixels, row by row, from a corner on.
+    fn print(&mut self, [left, top]: [i32; 2], [wide, _]: [usize; 2], shares: &[f64]) {
+        let [first, end] = self.canvas.rows();
+        for (n, share) in shares.iter().enumerate().filter(|(_, share)| **share > 0.0) {
+            let [x, y] = [left + (n % wide) as i32, top + (n / wide) as i32].map(|v| usize::try_from(v).ok());
+            if let (Some(x), Some(y)) = (x, y)
+                && x < self.canvas.size[0] as usize
+                && (first..end).contains(&y)
+            {
+                self.blend(x, y, *share);
+            }
+        }
     }
 
     /// Straight pieces with round ends, inked once where they meet.
-    pub fn strokes(&mut self, pieces: &[font::Piece], width: f64) {
+    pub fn strokes(&mut self, pieces: &[Piece], width: f64) {
         let reach = 0.5 * width + 1.0;
         let ends = || pieces.iter().flatten();
         let low = |k: usize| ends().map(|p| p[k] - reach).fold(f64::INFINITY, f64::min).max(0.0) as usize;
@@ -111,8 +127,31 @@ impl Pen<'_> {
     }
 }
 
+/// The ink with all that is nearer to it than a distance [pixel].
+fn widened(ink: &font::Ink, distance: f64) -> Vec<f64> {
+    let [wide, high] = ink.size.map(|n| n as i32);
+    let reach = distance.ceil() as i32;
+    let disc: Vec<(i32, i32, f64)> = (-reach..=reach)
+        .flat_map(|dy| (-reach..=reach).map(move |dx| (dx, dy)))
+        .map(|(dx, dy)| (dx, dy, (distance + 0.5 - f64::from(dx).hypot(f64::from(dy))).clamp(0.0, 1.0)))
+        .filter(|(.., share)| *share > 0.0)
+        .collect();
+    let mut all = vec![0.0f64; ink.shares.len()];
+    for (n, share) in ink.shares.iter().enumerate().filter(|(_, share)| **share > 0.0) {
+        let [x, y] = [n as i32 % wide, n as i32 / wide];
+        for (dx, dy, near) in &disc {
+            let [x, y] = [x + dx, y + dy];
+            if (0..wide).contains(&x) && (0..high).contains(&y) {
+                let place = &mut all[(y * wide + x) as usize];
+                *place = place.max(share * near);
+            }
+        }
+    }
+    all
+}
+
 /// From a point to the nearest of a straight piece.
-fn distance(point: [f64; 2], [a, b]: font::Piece) -> f64 {
+fn distance(point: [f64; 2], [a, b]: Piece) -> f64 {
     let along = [b[0] - a[0], b[1] - a[1]];
     let from = [point[0] - a[0], point[1] - a[1]];
     let length = along[0] * along[0] + along[1] * along[1];
