@@ -6,7 +6,7 @@ use alloc::collections::BTreeMap;
 /// [`crate::effects::DESCRIPTIONS`] says. An effect that no key asks for takes no memory and no time.
 ///
 /// ```
-/// use dem::setup::ContactLaw;
+/// use laws::effects::ContactLaw;
 /// let law = ContactLaw::new((0, 0), "hertz").with("restitution", 0.5).with("sliding_friction", 0.4);
 /// assert_eq!(law.number("sliding_friction"), Some(0.4));
 /// ```
