@@ -49,7 +49,7 @@ fn missing(kind: &str, values: &[Value]) -> Vec<String> {
     for part in kind.split(" or ") {
         let found = match part {
             "number" | "integer" => has(&number),
-            "2" => has(&|v| v.as_array().is_some_and(|list| list.len() == 2)),
+            "2 numbers" => has(&|v| v.as_array().is_some_and(|list| list.len() == 2)),
             "true/false" => has(&|v| v.as_bool() == Some(true)) && has(&|v| v.as_bool() == Some(false)),
             _ => !values.is_empty(),
         };

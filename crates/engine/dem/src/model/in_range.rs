@@ -80,7 +80,7 @@ impl<S: Fn() -> Subject> Check<S> {
 pub fn magnitudes(unit: &str) -> [f64; 2] {
     match unit {
         "m" => [1e-15, 1e15],
-        "m/s" | "rad/s" | "1/min" => [1e-18, 1e12],
+        "m/s" | "rad/s" | "rpm" => [1e-18, 1e12],
         // Files count seconds in 32 bits.
         "s" => [1e-18, 4e9],
         "Hz" => [1e-18, 1e15],

@@ -1,20 +1,17 @@
-//! Checks of how a scene is calculated and written, and of the fluid around its particles.
+//! Checks of how a scene is calculated, and of the fluid around its particles.
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Drag, DragLaw, Insert, SceneKeys, Sleep, Time};
+use crate::keys::{Drag, DragLaw, Insert, SceneKeys, Time};
 
 impl Check<'_> {
-    /// `[time]`, `[output]`, `[guards]` and the other single tables.
+    /// `[domain]`, `[time]`, `[local_damping]` and `[drag]`: keys that do not go together.
     pub(super) fn calculation(&self, m: &SceneKeys) -> Result<()> {
         self.domain(m)?;
         self.settling(m)?;
-        if let Some(d) = m.local_damping {
-            self.local_damping(m, d.factor)?;
-        }
+        self.local_damping(m)?;
         self.accuracy(&m.time)?;
-        m.drag.as_ref().map_or(Ok(()), |d| self.drag(d))?;
-        m.sleep.as_ref().map_or(Ok(()), |s| self.sleep(s))
+        m.drag.as_ref().map_or(Ok(()), |d| self.drag(d))
     }
 
     /// One of `accuracy`, `safety` and `dt` sets the step; an override of `dt` replaces a `safety` of the file.
@@ -58,26 +55,12 @@ impl Check<'_> {
         Ok(())
     }
 
-    fn local_damping(&self, m: &SceneKeys, factor: f64) -> Result<()> {
-        if !(factor > 0.0 && factor < 1.0) {
-            let why = "is outside 0 to 1, both left out";
-            return Err(self.wrong("local_damping.factor", factor, why, "give 0.7, which is usual, or less"));
+    fn local_damping(&self, m: &SceneKeys) -> Result<()> {
+        if m.local_damping.is_some() && m.sleep.is_some() {
+            let why = "does not act with [sleep]";
+            return Err(self.wrong("local_damping", "(given)", why, "leave out one of them"));
         }
-        match m.sleep {
-            None => Ok(()),
-            Some(_) => {
-                let why = "does not act with [sleep]";
-                Err(self.wrong("local_damping", "(given)", why, "leave out one of them"))
-            }
-        }
-    }
-
-    fn sleep(&self, s: &Sleep) -> Result<()> {
-        if s.wake > 0.0 && s.wake < 1.0 {
-            return Ok(());
-        }
-        let why = "is outside 0 to 1, both left out: from 1 on, a grain in free fall counts as one at rest";
-        Err(self.wrong("sleep.wake", s.wake, why, "give a share of the weight, such as 0.1"))
+        Ok(())
     }
 
     fn drag(&self, d: &Drag) -> Result<()> {

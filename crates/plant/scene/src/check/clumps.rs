@@ -1,63 +1,10 @@
-//! Checks of `[[clump]]`, `[[body]]`, and of entries that name a clump.
+//! Checks of `[[clump]]`.
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Clump, ClumpMass, ClumpMoments, GrainKeys, SceneKeys};
-
-/// Whether every size names its material.
-fn has_materials(sizes: Option<&toml::Value>) -> bool {
-    let named = |row: &toml::Value| row.as_array().is_some_and(|cells| cells.len() == 3);
-    sizes.and_then(toml::Value::as_array).is_some_and(|rows| !rows.is_empty() && rows.iter().all(named))
-}
+use crate::keys::{Clump, ClumpMass, ClumpMoments, SceneKeys};
 
 impl Check<'_> {
-    /// Spheres have material and diameter, clumps a name and perhaps a scale.
-    pub(super) fn particle(&self, entry: &str, given: &GrainKeys) -> Result<()> {
-        let key = |k: &str| format!("{entry}.{k}");
-        let (diameter, material) = (given.diameter.is_some(), given.material.is_some());
-        if given.clump.is_some() {
-            let keys = [("material", material), ("diameter", diameter), ("sizes", given.sizes.is_some())];
-            if let Some((name, _)) = keys.iter().find(|k| k.1) {
-                let cure = "take it out, or use scale";
-                return Err(self.wrong(&key(name), "(given)", "a clump has its own", cure));
-            }
-            return Ok(());
-        }
-        let kinds = [("diameter", diameter), ("sizes", given.sizes.is_some())];
-        if !(diameter || given.sizes.is_some()) {
-            let (value, why) = ("(without diameter)", "diameter is missing");
-            return Err(self.wrong(entry, value, why, "add it, or sizes, or the name of a clump"));
-        }
-        self.one_of(entry, &kinds)?;
-        if material && has_materials(given.sizes) {
-            let cure = "take it out, or the materials out of sizes";
-            return Err(self.wrong(&key("material"), "(given)", "each of sizes names another one", cure));
-        }
-        if !material && !has_materials(given.sizes) {
-            let (value, why) = ("(without material)", "material is missing");
-            return Err(self.wrong(entry, value, why, "add it, or the name of a clump"));
-        }
-        if given.by.is_some() && given.sizes.is_none() {
-            let cure = "take it out, or give sizes";
-            return Err(self.wrong(
-                &key("by"),
-                "(given)",
-                "only shares of sizes are by mass or number",
-                cure,
-            ));
-        }
-        if given.scale.is_some() {
-            let cure = "use diameter, or add clump = \"…\"";
-            return Err(self.wrong(&key("scale"), "(given)", "only clumps have a scale", cure));
-        }
-        if let Some(diameter) = given.diameter.filter(|diameter| diameter.high > 100.0) {
-            let value = format!("{} m", diameter.high);
-            let cure = "lengths are in metres: 5 mm is 0.005";
-            return Err(self.wrong(&key("diameter"), value, "is larger than 100 m", cure));
-        }
-        Ok(())
-    }
-
     /// `[[clump]]`.
     pub(super) fn clumps(&self, m: &SceneKeys) -> Result<()> {
         for (i, c) in m.clump.iter().enumerate() {

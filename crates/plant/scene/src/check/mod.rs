@@ -1,7 +1,7 @@
 //! Checks of the values of a scene that can be judged without files: ranges, keys that exclude each other.
 //!
 //! [`Check`] holds the rules that many keys share (above 0, within a range, one of several keys). Each key names its range where it is declared
-//! ([`crate::keys`]); each file here checks how the keys of one kind of table go together. A refused value names key, value, unit and cure ([`crate::error::ValueError`]). Uses the text for places in it, and the keys.
+//! ([`crate::keys`]); each file here checks how the keys of one kind of table go together. A refused value names key, value, unit and cure ([`crate::error::ValueError`]).
 
 mod bonds;
 mod calculation;
@@ -62,9 +62,25 @@ impl Check<'_> {
         if (low..=high).contains(&value) {
             return Ok(());
         }
-        let (low, high) = (geom::Shown(low), geom::Shown(high));
-        let cure = format!("give {low} to {high}{}{unit}", if unit.is_empty() { "" } else { " " });
+        let space = if unit.is_empty() { "" } else { " " };
+        let cure = match high {
+            f64::INFINITY => format!("give {} or more{space}{unit}", geom::Shown(low)),
+            _ => format!("give {} to {}{space}{unit}", geom::Shown(low), geom::Shown(high)),
+        };
         Err(self.wrong(key, format!("{} {unit}", shown(value)).trim_end(), "is outside the range", &cure))
+    }
+
+    /// A number between two, both left out.
+    fn between(&self, key: &str, value: f64, [low, high]: [f64; 2]) -> Result<()> {
+        if low < value && value < high {
+            return Ok(());
+        }
+        let [low, high] = [low, high].map(geom::Shown);
+        let cure = format!(
+            "give a number between {low} and {high}, such as {}",
+            geom::Shown(0.5 * (low.0 + high.0))
+        );
+        Err(self.wrong(key, shown(value), &format!("is not between {low} and {high}"), &cure))
     }
 
     /// Numbers that are finite, and no larger than a quantity of this unit may be.
@@ -88,7 +104,9 @@ impl Check<'_> {
             Range::Positive => positive(),
             Range::FromZero => each(0.0, dem::magnitudes(key.unit)[1]),
             Range::Within(low, high) => each(low, high),
-            Range::UpTo(high) => positive().and_then(|()| each(0.0, high)),
+            Range::Between(low, high) => numbers.iter().try_for_each(|v| self.between(at, *v, [low, high])),
+            Range::AtLeast(low) => each(low, f64::INFINITY),
+            Range::AboveZeroUpTo(high) => positive().and_then(|()| each(0.0, high)),
             Range::Poisson => numbers.iter().try_for_each(|v| self.poisson(at, *v)),
             Range::Pair => {
                 positive()?;
@@ -141,7 +159,6 @@ impl Check<'_> {
         by_itself: bool,
     ) -> Result<()> {
         let (Some(period), key) = (repeat, format!("{entry}.repeat")) else { return Ok(()) };
-        self.positive(&key, repeat, "s")?;
         let value = format!("{period} s");
         match until {
             None if by_itself => Ok(()),

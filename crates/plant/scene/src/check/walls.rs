@@ -2,7 +2,7 @@
 
 use super::Check;
 use crate::error::Result;
-use crate::keys::{Motion, Path, Place, Rotate, SceneKeys, Wall};
+use crate::keys::{Motion, OneOrMore, Path, Place, Rotate, SceneKeys, Wall};
 use geom::units;
 
 impl Check<'_> {
@@ -26,7 +26,7 @@ impl Check<'_> {
             return Err(self.wrong(&format!("{entry}.faces"), "(given)", "only a box has faces", cure));
         }
         self.mesh_scale(entry, w)?;
-        self.place(&format!("{entry}.place"), w.place.as_deref())?;
+        w.place.as_ref().map_or(Ok(()), |steps| self.place(&format!("{entry}.place"), steps))?;
         if let Some(b) = w.cuboid {
             let key = format!("{entry}.box");
             if (0..3).any(|a| b[a] >= b[a + 3]) {
@@ -41,10 +41,8 @@ impl Check<'_> {
     }
 
     /// Turns and shifts.
-    fn place(&self, entry: &str, steps: Option<&[Place]>) -> Result<()> {
-        let Some(steps) = steps else { return Ok(()) };
-        for (k, step) in steps.iter().enumerate() {
-            let key = if steps.len() == 1 { entry.to_owned() } else { format!("{entry}.{k}") };
+    fn place(&self, entry: &str, steps: &OneOrMore<Place>) -> Result<()> {
+        for (key, step) in steps.entries(entry) {
             if step.rotate.is_none() && step.translate.is_none() {
                 let cure = "add rotate = { about = [0, 1, 0], angle = \"10 deg\" } or translate = [0, 0, 1], or take it out";
                 return Err(self.wrong(&key, "{ }", "puts nothing anywhere", cure));
@@ -103,14 +101,13 @@ impl Check<'_> {
     }
 
     /// One motion, or a list of them that act one after the other.
-    fn motions(&self, entry: &str, list: &[Motion]) -> Result<()> {
+    fn motions(&self, entry: &str, list: &OneOrMore<Motion>) -> Result<()> {
         if list.is_empty() {
             let cure =
                 "add a motion, such as { translate = [0.5, 0, 0], from = 2, until = 2.4 }, or take it out";
             return Err(self.wrong(entry, "[ ]", "names no motion", cure));
         }
-        for (k, motion) in list.iter().enumerate() {
-            let key = if list.len() == 1 { entry.to_owned() } else { format!("{entry}.{k}") };
+        for (k, (key, motion)) in list.entries(entry).enumerate() {
             self.motion(&key, motion)?;
             let endless = motion.until.is_none() || motion.repeat.is_some();
             let carried = motion.translate.is_some_and(|v| v != [0.0; 3]) && endless;

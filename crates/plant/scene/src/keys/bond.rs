@@ -26,7 +26,7 @@ table! {
         poisson: Option<f64> = absent("required for beam"), "", Poisson, "0.25";
         /// Parallel: k_n = E/(r_i + r_j) per area; contact: k_n = 2 E (r_i + r_j).
         modulus: Option<f64> = absent("–"), "Pa", Positive, "1e9";
-        /// k_n/k_s.
+        /// Normal over shear stiffness, k_n/k_s.
         stiffness_ratio: Option<f64> = absent("with `modulus`"), "", Positive, "2.5";
         /// Parallel: k_n, instead of `modulus`.
         normal_stiffness_per_area: Option<f64> = absent("–"), "Pa/m", Positive, "1e12";
@@ -38,9 +38,9 @@ table! {
         shear_stiffness: Option<f64> = absent("–"), "N/m", Positive, "4e5";
         /// Parallel: share β of the moments in the stress.
         moments: Option<f64> = absent("1"), "", Within(0.0, 1.0), "0.5";
-        /// σ_c.
+        /// Tensile strength σ_c.
         tensile_strength: Option<f64> = absent("unbreakable"), "Pa", FromZero, "1e6";
-        /// τ_c.
+        /// Shear strength τ_c.
         shear_strength: Option<f64> = absent("unbreakable"), "Pa", FromZero, "3e6";
         /// Contact: tensile strength as a force.
         tensile_force: Option<f64> = absent("–"), "N", FromZero, "10";
@@ -48,17 +48,17 @@ table! {
         shear_force: Option<f64> = absent("–"), "N", FromZero, "30";
         /// Tensile over shear strength, instead of one of them.
         strength_ratio: Option<f64> = absent("–"), "", Positive, "0.3";
-        /// φ: pressure adds to the shear strength.
+        /// Angle of friction φ: pressure adds to the shear strength.
         friction_angle: Option<f64> = absent("0"), "rad", Within(0.0, STEEPEST), "\"30 deg\"";
         /// Standard deviation of the strengths over their mean (normal distribution).
         deviation: Option<f64> = absent("0"), "", Within(0.0, 1.0), "0.1";
-        /// m of the strengths (Weibull distribution); the strengths are its scale: 63.2 % of the bonds are weaker.
+        /// Exponent m of the strengths (Weibull distribution); the strengths are its scale: 63.2 % of the bonds are weaker.
         weibull_modulus: Option<f64> = absent("–"), "", Within(0.1, 1e4), "3";
-        /// r₀: bonds of another radius have (r₀/r)^(3/m) times the strength.
+        /// Radius r₀ of the bond that the strengths are of: bonds of another radius have (r₀/r)^(3/m) times the strength.
         reference_radius: Option<f64> = absent("no size effect"), "m", Positive, "0.01";
         /// Seed of the strengths.
         seed: Option<u64> = absent("0"), "", Any, "7";
-        /// γ of dashpots; 2 is critical damping.
+        /// Share γ of critical damping, of dashpots beside the springs; 2 is critical damping.
         damping: Option<f64> = absent("0"), "", Within(0.0, 2.0), "0.1";
         /// Whether the two grains are not in contact besides, as long as the bond holds.
         replaces_contact: Option<bool> = absent("true for contact"), "", Any, "true";

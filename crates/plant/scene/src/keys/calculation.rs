@@ -1,6 +1,7 @@
 //! How a scene is calculated and written, and the fluid around its particles.
 
 use super::table::{table, words};
+use dem::setup::CameBack;
 
 /// Whole numbers up to here are exact.
 const EXACT: f64 = 9e15;
@@ -24,24 +25,23 @@ table! {
     #[derive(Default)]
     Time section {
         /// End of the run.
-        until: Option<f64> = absent("required, here or as `--until`"), "s", UpTo(record::LATEST), "1";
+        until: Option<f64> = absent("required, here or as `--until`"), "s", AboveZeroUpTo(record::LATEST), "1";
         /// End the run earlier, when the mean unbalanced force is at most this share of the mean contact force; see below.
         until_unbalanced: Option<f64> = absent("none"), "", Positive, "1e-5";
         /// End the run earlier, when the kinetic energy of all grains is at most this.
         until_kinetic: Option<f64> = absent("none"), "J", Positive, "1e-6";
         /// Time step.
         dt: OrAuto = absent("\"auto\""), "s", Positive, "1e-5";
-        /// With "auto": time step over the critical step; the default is 0.2 if no contact has friction, and one of a linear law has
-        /// `normal_damping`, or `restitution` above 0.9 with `contacts = "sampled"` or `law = "walton_braun"`.
-        safety: Option<f64> = absent("0.5"), "", Within(1e-6, 1.0), "0.5";
+        /// With "auto": time step over the critical step.
+        safety: Option<f64> = absent("0.5; 0.2 for elastic grains: see below"), "", Within(1e-6, 1.0), "0.5";
         /// With "auto": largest error of an impact, such as "1%"; sets `safety` from measured curves.
         accuracy: Option<Accuracy> = absent("none"), "", Within(1e-9, 1.0), "\"1%\"";
-        /// Share by which the step is made shorter than that; contacts then begin at another phase of the step.
+        /// Share by which the step is made shorter; contacts then begin at another phase of the step.
         shorten: Option<f64> = absent("0"), "", Within(0.0, 0.5), "0.1";
         /// The contacts of two bodies that touch at several places (a grain on a wall of spheres, a clump): act as one contact where they are
         /// neighbours, each dashpot for the mass that it moves; or each by itself, as other programs do.
         patch: Patches = absent("\"shared\""), "", Any, "\"plain\"";
-        /// What a kick of one step counts: the force at its instant, or its mean over the part of the step in which the two touch.
+        /// The force of a contact over a step: its mean over the part in which the two touch ("averaged"), or its value at one instant ("sampled").
         contacts: Sampling = absent("\"averaged\""), "", Any, "\"sampled\"";
     }
 }
@@ -85,8 +85,8 @@ table! {
     /// `[local_damping]`
     #[derive(Copy)]
     LocalDamping section {
-        /// α: share of the unbalanced force that acts against the motion (Cundall's is 0.7); above 0, below 1.
-        factor: f64 = default(0.7), "", Any, "0.5";
+        /// α: share of the unbalanced force that acts against the motion; 0.7 is usual.
+        factor: f64 = default(0.7), "", Between(0.0, 1.0), "0.5";
     }
 }
 
@@ -146,8 +146,8 @@ table! {
         speed: f64 = required, "m/s", Positive, "0.01";
         /// How long the speed must have stayed below.
         time: f64 = default(0.02), "s", Positive, "\"50 ms\"";
-        /// Largest acceleration of a particle that falls asleep, as a share of g; less than 1.
-        wake: f64 = default(0.1), "", Any, "0.2";
+        /// Largest acceleration of a particle that falls asleep, as a share of g; from 1 on, a grain in free fall would count as one at rest.
+        wake: f64 = default(0.1), "", Between(0.0, 1.0), "0.2";
     }
 }
 
@@ -186,17 +186,6 @@ table! {
     }
 }
 
-/// What becomes of a grain that goes back through all of its zone: `true`, `"remove"` or `false`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BackThroughZone {
-    /// It stops the run.
-    Stops,
-    /// It is taken out and counted.
-    IsRemoved,
-    /// It moves on.
-    Stays,
-}
-
 /// What the time step may make of energy: a share, or `false`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EnergyGuard {
@@ -226,7 +215,7 @@ table! {
         motion: Option<f64> = absent("0.25"), "", Positive, "0.25";
         /// Stop when a grain of an `[[inlet]]` goes back through its whole zone; "remove" takes it out and counts it
         /// ([run.md](../how-to/run.md#guards)).
-        zones: Option<BackThroughZone> = absent("true"), "", Any, "\"remove\"";
+        zones: Option<CameBack> = absent("true"), "", Any, "\"remove\"";
         /// Largest energy that the time step may create, as a share of the energy exchanged plus the largest kinetic and elastic energy so far;
         /// false: no limit.
         energy: Option<EnergyGuard> = absent("0.02 (0.05 with `contacts = \"sampled\"`) with the energy ledger, else off"), "", Positive, "0.02";

@@ -1,21 +1,13 @@
-//! Materials, and what they do to each other.
+//! `[[contact]]`, whose keys are those of the engine's effects.
 
-use super::table::table;
+use super::sections::Row;
+use super::table::{OneOf, REQUIRED, TableShape};
+use super::value::{In, KeyUnit, KeyValue, begins_as_number, quoted, unknown_word};
+use dem::effects::{DESCRIPTIONS, Description, Key, NORMAL_DAMPING, RESTITUTION, keys, models};
 use dem::setup::ContactLaw;
-
-table! {
-    /// `[[material]]`
-    Material section {
-        /// Name.
-        name: String = required, "", Name, "\"glass\"";
-        /// Density; only grains need it.
-        density: Option<f64> = absent("–"), "kg/m³", Positive, "2500";
-        /// Young's modulus.
-        young: f64 = required, "Pa", Positive, "1e7";
-        /// Poisson's ratio.
-        poisson: f64 = required, "", Poisson, "0.25";
-    }
-}
+use serde::de::{self, DeserializeSeed, Deserializer, Error, MapAccess, Unexpected, Visitor};
+use std::fmt;
+use std::sync::LazyLock;
 
 /// `[[contact]]`
 #[derive(Debug, Clone, PartialEq)]
@@ -26,4 +18,227 @@ pub struct Contact {
     pub law: ContactLaw,
     /// Speed of impact at which a linear law is as deep as "hertz" [m/s], instead of `stiffness`.
     pub characteristic_velocity: Option<f64>,
+}
+
+/// Keys of a `[[contact]]` that are not the engine's.
+const BETWEEN: &str = "between";
+const CHARACTERISTIC_VELOCITY: &str = "characteristic_velocity";
+
+/// Every key of a `[[contact]]`, in the order of the effects.
+static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
+    let mut all = vec![BETWEEN, CHARACTERISTIC_VELOCITY];
+    let named = models().into_iter().map(|(key, _)| key);
+    for key in named.chain(keys().map(|key| key.name.split('.').next().unwrap_or_default())) {
+        if !all.contains(&key) {
+            all.push(key);
+        }
+    }
+    all
+});
+
+/// Keys of the table that a key may have instead of a number, such as `static` of `sliding_friction.static`.
+fn table_keys(key: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    keys().filter_map(move |k| Some((k.name, k.name.strip_prefix(key)?.strip_prefix('.')?)))
+}
+
+/// The unit of a key of the engine.
+fn unit_of(key: &str) -> &'static str {
+    keys().find(|k| k.name == key).map_or("", |k| k.unit)
+}
+
+/// The keys as people read about them.
+fn rows() -> Vec<Row> {
+    let text = |name: &str, kind: &str, default: &str, doc: &str, example: &str| Row {
+        name: name.to_owned(),
+        kind: kind.to_owned(),
+        unit: "",
+        range: String::new(),
+        default: default.to_owned(),
+        doc: doc.to_owned(),
+        example: example.to_owned(),
+        table: None,
+    };
+    let model = |(key, values): (&str, Vec<&str>)| {
+        let default = DESCRIPTIONS.iter().filter_map(|d| d.model).find(|m| m.key == key && m.default);
+        let default = default.map_or("none".to_owned(), |m| format!("\"{}\"", m.value));
+        let doc = match key {
+            "law" => "Normal force: see the effects above",
+            "cohesion" => "A pull that is added to the normal force",
+            "rolling_model" => "What `rolling_resistance` is: a spring, or a torque of one size",
+            _ => "Which model",
+        };
+        let example = format!("\"{}\"", values.last().copied().unwrap_or_default());
+        text(key, &quoted(values.iter().copied()), &default, doc, &example)
+    };
+    let number = |key: &Key| {
+        let (kind, of) = match table_keys(key.name).map(|(_, short)| format!("`{short}`")).collect::<Vec<_>>()
+        {
+            none if none.is_empty() => ("number".to_owned(), key.name.contains('.')),
+            short => (format!("number or table of {}", short.join(", ")), false),
+        };
+        // A table that stands instead of a number has all of its keys.
+        let default = if of { REQUIRED.to_owned() } else { required_with(key.name) };
+        Row {
+            unit: key.unit,
+            range: key.range.to_string(),
+            ..text(key.name, &kind, &default, key.doc, key.example)
+        }
+    };
+    let between =
+        text(BETWEEN, "2 names", REQUIRED, "Names of two materials; \"*\" stands for any", "[\"*\", \"*\"]");
+    let speed = "Instead of `stiffness`: the speed of impact at which two of the largest grains store as much as with \"hertz\"";
+    let speed = text(CHARACTERISTIC_VELOCITY, "number", "–", speed, "1");
+    let speed = Row { unit: "m/s", range: "above 0".to_owned(), ..speed };
+    let mut all: Vec<Row> =
+        [between].into_iter().chain(models().into_iter().map(model)).chain(keys().map(number)).collect();
+    let at = all.iter().position(|row| row.name == "stiffness").map_or(all.len(), |at| at + 1);
+    all.insert(at, speed);
+    all
+}
+
+/// What asks for a number that must be there, in words; "none" where nothing does.
+fn required_with(name: &str) -> String {
+    let takes = |d: &&&Description| d.keys.iter().any(|k| k.name == name && k.required);
+    let model = |d: &&Description| d.model.map(|m| format!("\"{}\"", m.value));
+    let mut all: Vec<String> = DESCRIPTIONS.iter().filter(takes).filter_map(model).collect();
+    all.dedup();
+    if all.is_empty() { "none".to_owned() } else { format!("required with {}", all.join(", ")) }
+}
+
+/// Reads a number, or text with a unit.
+fn number(unit: &'static str) -> In<f64> {
+    In::new(KeyUnit::of(unit))
+}
+
+impl KeyValue for Contact {
+    fn kind() -> String {
+        "table".to_owned()
+    }
+
+    fn table() -> Option<TableShape> {
+        Some(TableShape { name: "Contact", section: true, rows: rows() })
+    }
+
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<Contact, D::Error> {
+        from.deserialize_map(ContactVisitor)
+    }
+}
+
+struct ContactVisitor;
+
+impl<'de> Visitor<'de> for ContactVisitor {
+    type Value = Contact;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("struct Contact")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Contact, A::Error> {
+        let (mut between, mut characteristic_velocity) = (None, None);
+        let mut law = ContactLaw::new((0, 0), "hertz");
+        while let Some(key) = map.next_key_seed(OneOf(&KEYS))? {
+            if key == BETWEEN {
+                between = Some(map.next_value()?);
+            } else if key == CHARACTERISTIC_VELOCITY {
+                characteristic_velocity = Some(map.next_value_seed(number("m/s"))?);
+            } else if let Some((key, values)) = models().into_iter().find(|m| m.0 == key) {
+                law.choose(key, map.next_value_seed(Named(values))?);
+            } else {
+                map.next_value_seed(Numbers { key, law: &mut law })?;
+            }
+        }
+        let between = between.ok_or_else(|| Error::missing_field(BETWEEN))?;
+        if [RESTITUTION, NORMAL_DAMPING].iter().all(|key| law.number(key.name).is_none()) {
+            return Err(Error::missing_field(RESTITUTION.name));
+        }
+        Ok(Contact { between, law, characteristic_velocity })
+    }
+}
+
+/// A model that is one of these.
+struct Named(Vec<&'static str>);
+
+impl<'de> DeserializeSeed<'de> for Named {
+    type Value = &'static str;
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<&'static str, D::Error> {
+        from.deserialize_any(self)
+    }
+}
+
+impl Visitor<'_> for Named {
+    type Value = &'static str;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "one of {}", quoted(self.0.iter().copied()))
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<&'static str, E> {
+        let known = self.0.iter().find(|k| **k == name).copied();
+        known.ok_or_else(|| unknown_word(name, self.0.iter().copied()))
+    }
+}
+
+/// A number, or a table of numbers where some effect takes one.
+struct Numbers<'a> {
+    key: &'static str,
+    law: &'a mut ContactLaw,
+}
+
+impl<'de> DeserializeSeed<'de> for Numbers<'_> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<(), D::Error> {
+        if table_keys(self.key).next().is_some() {
+            return from.deserialize_any(self);
+        }
+        self.law.set(self.key, number(unit_of(self.key)).deserialize(from)?);
+        Ok(())
+    }
+}
+
+impl<'de> Visitor<'de> for Numbers<'_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let of = |(name, short): (&str, &str)| {
+            let example = keys().find(|k| k.name == name).map_or("", |k| k.example);
+            format!("{short} = {example}")
+        };
+        let table = table_keys(self.key).map(of).collect::<Vec<_>>().join(", ");
+        write!(f, "a number, such as 0.5, or {{ {table} }}")
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<(), E> {
+        self.law.set(self.key, value);
+        Ok(())
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<(), E> {
+        self.visit_f64(value as f64)
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<(), E> {
+        if !begins_as_number(text) {
+            return Err(E::invalid_type(Unexpected::Str(text), &self));
+        }
+        let value = KeyUnit::of(unit_of(self.key)).parse(text)?;
+        self.visit_f64(value)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
+        // One list for each key that takes a table lasts as long as the program: there are few.
+        static TABLE: LazyLock<Vec<(&str, Vec<&str>)>> = LazyLock::new(|| {
+            KEYS.iter().map(|key| (*key, table_keys(key).map(|(_, short)| short).collect())).collect()
+        });
+        let known = TABLE.iter().find(|t| t.0 == self.key).map_or(&[][..], |t| &t.1[..]);
+        while let Some(short) = map.next_key_seed(OneOf(known))? {
+            let full = table_keys(self.key).find(|k| k.1 == short);
+            let unit = full.map_or("", |(full, _)| unit_of(full));
+            let value: f64 = map.next_value_seed(number(unit))?;
+            full.into_iter().for_each(|(full, _)| self.law.set(full, value));
+        }
+        let missing = table_keys(self.key).find(|(full, _)| self.law.number(full).is_none());
+        missing.map_or(Ok(()), |(_, short)| Err(de::Error::missing_field(short)))
+    }
 }

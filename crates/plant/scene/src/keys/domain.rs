@@ -15,7 +15,7 @@ table! {
         low: Option<[f64; 3]> = absent("required if periodic"), "m", Finite, "[0, 0, 0]";
         /// Highest corner.
         high: Option<[f64; 3]> = absent("required if periodic"), "m", Finite, "[0.1, 0.1, 0.1]";
-        /// A run whose last domain it is, instead of `low` and `high`.
+        /// A run; its last domain is used, instead of `low` and `high`.
         source: Option<String> = absent("–"), "file", Any, "\"prepare.mcap\"";
         /// What each periodic axis follows: see below.
         strain: Strains = absent("–"), "", Any, "";

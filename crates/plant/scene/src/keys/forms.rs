@@ -1,10 +1,11 @@
 //! Values that may be written in two ways: a share, a word or a truth value, one table or a list of them.
 
-use super::table::{Key, Shape, Table, TableVisitor};
+use super::table::{Key, Table, TableShape, TableVisitor};
 use super::value::{In, KeyUnit, KeyValue};
-use super::{Accuracy, BackThroughZone, EnergyGuard};
+use super::{Accuracy, EnergyGuard};
 use crate::check::Check;
 use crate::error::Result as Checked;
+use dem::setup::CameBack;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
@@ -48,12 +49,12 @@ impl Visitor<'_> for Share {
     }
 }
 
-impl KeyValue for BackThroughZone {
+impl KeyValue for CameBack {
     fn kind() -> String {
         "true/false or \"remove\"".to_owned()
     }
 
-    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<BackThroughZone, D::Error> {
+    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<CameBack, D::Error> {
         from.deserialize_any(Back)
     }
 }
@@ -61,19 +62,19 @@ impl KeyValue for BackThroughZone {
 struct Back;
 
 impl Visitor<'_> for Back {
-    type Value = BackThroughZone;
+    type Value = CameBack;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str("true, false or \"remove\"")
     }
 
-    fn visit_bool<E: Error>(self, stops: bool) -> Result<BackThroughZone, E> {
-        Ok(if stops { BackThroughZone::Stops } else { BackThroughZone::Stays })
+    fn visit_bool<E: Error>(self, stops: bool) -> Result<CameBack, E> {
+        Ok(if stops { CameBack::Stops } else { CameBack::Stays })
     }
 
-    fn visit_str<E: Error>(self, v: &str) -> Result<BackThroughZone, E> {
+    fn visit_str<E: Error>(self, v: &str) -> Result<CameBack, E> {
         match v {
-            "remove" => Ok(BackThroughZone::IsRemoved),
+            "remove" => Ok(CameBack::IsRemoved),
             _ => Err(E::invalid_value(Unexpected::Str(v), &self)),
         }
     }
@@ -127,6 +128,17 @@ impl Visitor<'_> for ShareOrOff {
 #[derive(Debug, Clone, PartialEq)]
 pub struct OneOrMore<T>(pub Vec<T>);
 
+impl<T> OneOrMore<T> {
+    /// Each table with its dotted key: that of one table alone has no index.
+    pub fn entries<'a>(&'a self, at: &'a str) -> impl Iterator<Item = (String, &'a T)> {
+        let alone = self.0.len() == 1;
+        self.0
+            .iter()
+            .enumerate()
+            .map(move |(k, table)| (if alone { at.to_owned() } else { format!("{at}.{k}") }, table))
+    }
+}
+
 impl<T> Deref for OneOrMore<T> {
     type Target = [T];
 
@@ -140,7 +152,7 @@ impl<T: Table> KeyValue for OneOrMore<T> {
         "table or list of tables".to_owned()
     }
 
-    fn table() -> Option<Shape> {
+    fn table() -> Option<TableShape> {
         T::table()
     }
 
@@ -149,10 +161,7 @@ impl<T: Table> KeyValue for OneOrMore<T> {
     }
 
     fn check(&self, check: &Check, at: &str, _: &Key) -> Checked<()> {
-        match &self.0[..] {
-            [one] => one.check_keys(check, at),
-            list => list.iter().enumerate().try_for_each(|(i, t)| t.check_keys(check, &format!("{at}.{i}"))),
-        }
+        self.entries(at).try_for_each(|(key, table)| table.check_keys(check, &key))
     }
 }
 

@@ -102,7 +102,7 @@ impl fmt::Display for ShapeText {
 
 impl KeyValue for ShapeText {
     fn kind() -> String {
-        "text or list".to_owned()
+        "text or list or table".to_owned()
     }
 
     fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<ShapeText, D::Error> {

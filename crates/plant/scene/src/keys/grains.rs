@@ -1,7 +1,7 @@
 //! `[[fill]]` and `[[insert]]`: entries that make grains, and the keys that both have.
 
 use super::table::table;
-use super::{Diameter, Lattice, ShapeText, ShareOf};
+use super::{Lattice, OneOrRange, ShapeText, ShareOf};
 
 /// What an entry says about the grains that it makes.
 #[derive(Debug, Clone, Copy)]
@@ -11,9 +11,9 @@ pub struct GrainKeys<'a> {
     /// Name of a `[[clump]]`: clumps instead of spheres.
     pub clump: Option<&'a str>,
     /// Sizes of clumps over that of their shape [–].
-    pub scale: Option<Diameter>,
+    pub scale: Option<OneOrRange>,
     /// Diameters [m].
-    pub diameter: Option<Diameter>,
+    pub diameter: Option<OneOrRange>,
     /// Sizes with shares instead of `diameter`.
     pub sizes: Option<&'a toml::Value>,
     /// What the shares of `sizes` are of.
@@ -39,8 +39,8 @@ macro_rules! makes_grains {
             $name section {
                 /// Material of the grains.
                 material: Option<String> = absent("required without `clump`, unless each of `sizes` names one"), "", Any, "\"glass\"";
-                /// Diameter, or a range [smallest, largest]; uniform in the range.
-                diameter: Option<Diameter> = absent("this or `sizes`, without `clump`"), "m", Pair, "[\"4 mm\", \"6 mm\"]";
+                /// OneOrRange, or a range [smallest, largest]; uniform in the range.
+                diameter: Option<OneOrRange> = absent("this or `sizes`, without `clump`"), "m", Pair, "[\"4 mm\", \"6 mm\"]";
                 /// Sizes with shares, see [sizes](#sizes).
                 sizes: Option<toml::Value> = absent("this or `diameter`"), "m", Any, "[[0.004, 1], [0.006, 2]]";
                 /// What the shares of `sizes` are of.
@@ -48,8 +48,8 @@ macro_rules! makes_grains {
                 /// Clumps of this name instead of spheres.
                 clump: Option<String> = absent("–"), "", Any, "\"stone\"";
                 /// With `clump`: factor on its size, or a range [smallest, largest].
-                scale: Option<Diameter> = absent("1"), "", Pair, "[0.8, 1.2]";
-                /// Seed of the random numbers.
+                scale: Option<OneOrRange> = absent("1"), "", Pair, "[0.8, 1.2]";
+                /// Seed of the random numbers; entries with one seed still differ.
                 seed: u64 = absent("0"), "", Any, "7";
                 $($own)*
             }
@@ -81,7 +81,7 @@ makes_grains! {
         /// Mass to place; this, `count` or `lattice`.
         mass: Option<f64> = absent("–"), "kg", Positive, "2";
         /// Number to place.
-        count: Option<u64> = absent("–"), "", Any, "500";
+        count: Option<u64> = absent("–"), "", AtLeast(1.0), "500";
         /// Equal spheres that touch, on all sites of this lattice that hold a whole sphere.
         lattice: Option<Lattice> = absent("–"), "", Any, "\"hexagonal\"";
         /// [Cluster](#clusters) of all its spheres.
@@ -109,12 +109,12 @@ makes_grains! {
         /// The insertion ends when it has inserted this mass; this or `count`.
         mass: Option<f64> = absent("no limit"), "kg", Positive, "2";
         /// The insertion ends when it has inserted this number (a clump counts as one); this or `mass`.
-        count: Option<u64> = absent("no limit"), "", Any, "500";
+        count: Option<u64> = absent("no limit"), "", AtLeast(1.0), "500";
         /// The insertion opens again this long after `from`, and again; at least `until` − `from`. Without `until` each time ends after `mass` or
         /// `count`, or when the next begins.
         repeat: Option<f64> = absent("never"), "s", Positive, "5";
         /// With `repeat`: how often it opens in all.
-        times: Option<u64> = absent("no limit"), "", Any, "3";
+        times: Option<u64> = absent("no limit"), "", AtLeast(1.0), "3";
     }
 }
 

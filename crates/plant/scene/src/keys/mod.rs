@@ -5,12 +5,13 @@
 
 mod bond;
 mod calculation;
+mod clumps;
 mod contact;
-mod contact_keys;
 mod domain;
 mod forms;
 mod geometry;
 mod grains;
+mod material;
 mod numbers;
 mod particles;
 mod place;
@@ -19,14 +20,17 @@ mod servo;
 mod table;
 mod value;
 mod wall;
+mod zones;
 
 pub use bond::*;
 pub use calculation::*;
+pub use clumps::*;
 pub use contact::*;
 pub use domain::*;
 pub use forms::OneOrMore;
 pub use geometry::{PlaneText, ShapeText};
 pub use grains::*;
+pub use material::*;
 pub use particles::*;
 pub use place::*;
 pub use sections::{Row, Section, reference, rows, sections};
@@ -34,6 +38,7 @@ pub use servo::*;
 pub(crate) use table::{Key, Range, Table};
 pub(crate) use value::KeyValue;
 pub use wall::*;
+pub use zones::*;
 
 use serde::de::{Deserialize, Deserializer};
 use table::table;

@@ -1,7 +1,7 @@
 //! Values that are made of numbers: one, several, a range, a number or a word.
 
 use super::value::{KeyUnit, KeyValue, begins_as_number};
-use super::{Diameter, Every, OrAuto};
+use super::{Every, OneOrRange, OrAuto};
 use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
 use std::fmt;
 
@@ -184,18 +184,18 @@ impl KeyValue for Every {
     }
 }
 
-impl KeyValue for Diameter {
+impl KeyValue for OneOrRange {
     fn kind() -> String {
-        "number or 2".to_owned()
+        "number or 2 numbers".to_owned()
     }
 
-    fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<Diameter, D::Error> {
-        let range: Option<fn([f64; 2]) -> Diameter> = Some(|[low, high]| Diameter { low, high });
+    fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<OneOrRange, D::Error> {
+        let range: Option<fn([f64; 2]) -> OneOrRange> = Some(|[low, high]| OneOrRange { low, high });
         let what = "one value, or two: [smallest, largest]";
         from.deserialize_any(NumberOr {
             unit,
             what,
-            number: |v| Diameter { low: v, high: v },
+            number: |v| OneOrRange { low: v, high: v },
             word: None,
             range,
         })

@@ -1,7 +1,7 @@
 //! The keys of scenes as people read them: sections of docs/reference/scene.md, and the text of `dem-run --keys`.
 
 use super::SceneKeys;
-use super::table::{Key, REQUIRED, Shape, dotted};
+use super::table::{Key, REQUIRED, TableShape, dotted};
 use super::value::KeyValue;
 use std::fmt::Write;
 
@@ -23,7 +23,7 @@ pub struct Row {
     /// A value in TOML; "" for a table.
     pub example: String,
     /// The table that is its value, if it is one.
-    pub(crate) table: Option<Shape>,
+    pub(crate) table: Option<TableShape>,
 }
 
 impl Row {
@@ -40,7 +40,7 @@ impl From<&Key> for Row {
             kind: if key.unit == "file" { "file".to_owned() } else { (key.kind)() },
             unit: if key.unit == "file" { "" } else { key.unit },
             range: key.range.to_string(),
-            default: key.default.to_owned(),
+            default: key.default.replace(".0", ""),
             doc: key.doc.trim().trim_end_matches('.').to_owned(),
             example: key.example.to_owned(),
             table: (key.table)(),
@@ -76,7 +76,7 @@ pub fn rows() -> Vec<(String, Row)> {
 }
 
 /// Adds a section, and those of the tables in it.
-fn add(all: &mut Vec<Section>, path: &str, many: bool, shape: &Shape) {
+fn add(all: &mut Vec<Section>, path: &str, many: bool, shape: &TableShape) {
     let (mut rows, mut below) = (Vec::new(), Vec::new());
     flatten(&mut rows, &mut below, "", shape);
     if path.is_empty() {
@@ -89,8 +89,9 @@ fn add(all: &mut Vec<Section>, path: &str, many: bool, shape: &Shape) {
     }
 }
 
-/// The keys of a table with those of the small tables in it, and the tables that have sections of their own; of those of one shape the first.
-fn flatten(rows: &mut Vec<Row>, below: &mut Vec<(String, String, Shape)>, at: &str, shape: &Shape) {
+/// The keys of a table with those of the small tables in it, and the tables that have sections of their own; where several keys hold one
+/// shape (`strain.x`, `strain.y`, `strain.z`), the first gets the section.
+fn flatten(rows: &mut Vec<Row>, below: &mut Vec<(String, String, TableShape)>, at: &str, shape: &TableShape) {
     for row in &shape.rows {
         let (name, table) = (dotted(at, &row.name), row.table.clone());
         rows.push(Row { name: name.clone(), ..row.clone() });
@@ -134,7 +135,9 @@ pub fn reference() -> String {
     for section in sections() {
         let head = section.head();
         let lead = if out.is_empty() { "" } else { "\n" };
-        let _ = if head.is_empty() { Ok(()) } else { writeln!(out, "{lead}{head}") };
+        if !head.is_empty() {
+            out += &format!("{lead}{head}\n");
+        }
         for row in section.rows.iter().filter(|row| !row.example.is_empty()) {
             let unit = if row.unit.is_empty() { String::new() } else { format!(" [{}]", row.unit) };
             let range = if row.range.is_empty() { String::new() } else { format!(", {}", row.range) };
@@ -155,6 +158,8 @@ pub fn reference() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::keys::value::KeyUnit;
+    use crate::keys::{MOST_FRAMES, MOST_STEPS, SAFETY, SAFETY_ELASTIC, Sampling};
     use crate::text::{Text, parse};
 
     /// The least that a section needs around one key to be read: its required keys.
@@ -189,21 +194,60 @@ mod tests {
     /// A default that is a value in TOML is the value that holds without the key.
     #[test]
     fn defaults_are_those_of_the_keys() {
+        let mut compared = 0;
         for section in sections().iter().filter(|section| section.path != "contact") {
             for row in section.rows.iter().filter(|row| !row.example.is_empty() && !row.is_required()) {
-                let default = Row { example: row.default.replace("1/min", ""), ..row.clone() };
                 let read = |row: &Row| parse(&Text::new("scene.toml", with(section, row)));
-                let (Ok(given), Ok(set)) = (read(&default), read(row)) else { continue };
+                let default = Row { example: row.default.clone(), ..row.clone() };
                 let without = Row { example: String::new(), ..row.clone() };
-                let Ok(absent) = read(&without) else { continue };
-                if format!("{absent:?}")
-                    .contains(&format!("{}: None", row.name.rsplit('.').next().unwrap_or_default()))
-                {
+                let (Ok(given), Ok(set), Ok(absent)) = (read(&default), read(row), read(&without)) else {
+                    continue;
+                };
+                // Without an optional key other code says what holds: see the next test.
+                let field = row.name.rsplit('.').next().unwrap_or_default();
+                if format!("{absent:?}").contains(&format!("{field}: None")) {
                     continue;
                 }
                 assert_eq!(given, absent, "{}.{} = {}", section.path, row.name, row.default);
                 assert_ne!(set, absent, "{}.{}: the example is the default", section.path, row.name);
+                compared += 1;
             }
+        }
+        assert!(compared > 30, "{compared}");
+    }
+
+    /// Defaults of optional keys are what the code takes that uses them.
+    #[test]
+    fn defaults_of_optional_keys_are_those_of_the_engine() {
+        let guards = dem::setup::Guards::default();
+        let most = [Sampling::Averaged, Sampling::Sampled].map(Sampling::most_energy);
+        let wanted = [
+            ("time.safety", format!("{SAFETY}; {SAFETY_ELASTIC} for elastic grains: see below")),
+            ("guards.overlap", guards.overlap.to_string()),
+            ("guards.motion", guards.motion.to_string()),
+            ("guards.steps", format!("{MOST_STEPS:e}")),
+            ("guards.frames", format!("{MOST_FRAMES:e}")),
+            (
+                "guards.energy",
+                format!(
+                    "{} ({} with `contacts = \"sampled\"`) with the energy ledger, else off",
+                    most[0], most[1]
+                ),
+            ),
+        ];
+        let rows = rows();
+        for (path, default) in wanted {
+            let row = rows.iter().find(|row| row.0 == path).expect(path);
+            assert_eq!(row.1.default, default, "{path}");
+        }
+    }
+
+    /// What a message proposes for a unit is of that unit.
+    #[test]
+    fn examples_of_units_are_of_them() {
+        for (path, row) in rows() {
+            let such = KeyUnit::of(row.unit).such;
+            assert!(geom::units::parse(such, row.unit).is_ok(), "{path} [{}]: {such}", row.unit);
         }
     }
 

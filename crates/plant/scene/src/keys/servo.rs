@@ -61,7 +61,7 @@ impl KeyValue for Side {
 
 impl KeyValue for [Side; 2] {
     fn kind() -> String {
-        "list of 2".to_owned()
+        "list of 2, each 2 names or a number".to_owned()
     }
 
     fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<[Side; 2], D::Error> {

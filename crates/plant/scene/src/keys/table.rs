@@ -16,7 +16,7 @@ pub enum Range {
     Any,
     /// Finite, and no larger than a quantity of its unit may be.
     Finite,
-    /// Above 0.
+    /// Above 0, and of a size that its unit allows ([`dem::magnitudes`]).
     Positive,
     /// Two numbers above 0, the smaller first.
     Pair,
@@ -24,8 +24,12 @@ pub enum Range {
     FromZero,
     /// From the first to the second, both included.
     Within(f64, f64),
+    /// Between the two, both left out.
+    Between(f64, f64),
+    /// This or more.
+    AtLeast(f64),
     /// Above 0, up to this.
-    UpTo(f64),
+    AboveZeroUpTo(f64),
     /// Of Poisson's ratio.
     Poisson,
     /// A name without control characters: it goes into scripts and tables.
@@ -39,7 +43,11 @@ impl fmt::Display for Range {
             Range::Positive | Range::Pair => f.write_str("above 0"),
             Range::FromZero => f.write_str("from 0"),
             Range::Within(low, high) => write!(f, "{} to {}", geom::Shown(*low), geom::Shown(*high)),
-            Range::UpTo(high) => write!(f, "above 0, up to {}", geom::Shown(*high)),
+            Range::Between(low, high) => {
+                write!(f, "between {} and {}", geom::Shown(*low), geom::Shown(*high))
+            }
+            Range::AtLeast(low) => write!(f, "{} or more", geom::Shown(*low)),
+            Range::AboveZeroUpTo(high) => write!(f, "above 0, up to {}", geom::Shown(*high)),
             Range::Poisson => f.write_str(record::POISSON),
             Range::Name => f.write_str("without control characters"),
         }
@@ -64,7 +72,7 @@ pub struct Key {
     /// A value in TOML; "" for a table.
     pub example: &'static str,
     /// The table that is its value, if it is one.
-    pub table: fn() -> Option<Shape>,
+    pub table: fn() -> Option<TableShape>,
 }
 
 /// The default of a key that must be there.
@@ -72,10 +80,10 @@ pub const REQUIRED: &str = "required";
 
 /// What a table looks like from outside.
 #[derive(Debug, Clone)]
-pub struct Shape {
+pub struct TableShape {
     /// Name of its struct: one shape may stand at several places.
     pub name: &'static str,
-    /// Whether people read about it in a section of its own; otherwise with the key that holds it.
+    /// Whether people read about it in a separate section; otherwise with the key that holds it.
     pub section: bool,
     /// Its keys.
     pub rows: Vec<Row>,
@@ -85,7 +93,7 @@ pub struct Shape {
 pub trait Table: Sized {
     /// Name of the struct.
     const NAME: &'static str;
-    /// Whether it has a section of its own.
+    /// Whether it has a separate section.
     const SECTION: bool;
     /// Its keys.
     const KEYS: &'static [Key];
@@ -110,8 +118,8 @@ impl<T: Table> KeyValue for T {
         "table".to_owned()
     }
 
-    fn table() -> Option<Shape> {
-        Some(Shape { name: T::NAME, section: T::SECTION, rows: T::KEYS.iter().map(Row::from).collect() })
+    fn table() -> Option<TableShape> {
+        Some(TableShape { name: T::NAME, section: T::SECTION, rows: T::KEYS.iter().map(Row::from).collect() })
     }
 
     fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<T, D::Error> {
@@ -211,6 +219,7 @@ macro_rules! table {
             }
 
             fn check_keys(&self, check: &$crate::check::Check, at: &str) -> $crate::error::Result<()> {
+                // One for each field, in the same order.
                 let mut keys = Self::KEYS.iter();
                 $(if let Some(key) = keys.next() {
                     let at = $crate::keys::table::dotted(at, key.name);

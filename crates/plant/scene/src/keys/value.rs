@@ -3,7 +3,7 @@
 //! Numbers are plain in the unit of their key, or text with a unit such as "8 mm". Lists may be written as a list of numbers and texts, or as
 //! one text with commas.
 
-use super::table::{Key, Range, Shape};
+use super::table::{Key, Range, TableShape};
 use crate::check::Check;
 use crate::error::Result as Checked;
 use dem::setup::{ZoneMotion, ZoneTest};
@@ -41,7 +41,7 @@ impl KeyUnit {
             "Hz" => "50 Hz",
             "N" => "2 kN",
             "N/m" => "2 kN/m",
-            "N·s/m" => "2 kN·s/m",
+            "N·s/m" | "N s/m" => "2 kN·s/m",
             "Pa" => "5 MPa",
             "Pa/m" => "2 GPa/m",
             "Pa·s" => "1 cP",
@@ -49,6 +49,7 @@ impl KeyUnit {
             "J/m²" => "50 mJ/m²",
             "J/m³" => "20 kJ/m³",
             "kg/m³" => "2.5 g/cm³",
+            "m⁵" => "2 cm⁵",
             _ => "40 %",
         };
         KeyUnit { unit, such }
@@ -85,11 +86,11 @@ pub trait KeyValue: Sized {
     /// Reads it; plain numbers are in `unit`.
     ///
     /// # Errors
-    /// A value of another type, a text that is no number of this unit.
+    /// A value of another type, a text that is not a number of this unit.
     fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<Self, D::Error>;
 
     /// The table that it is, if it is one.
-    fn table() -> Option<Shape> {
+    fn table() -> Option<TableShape> {
         None
     }
 
@@ -107,7 +108,7 @@ pub trait KeyValue: Sized {
     }
 }
 
-/// Reads a value in a unit inside another one.
+/// Reads one value of a table or a list (a seed of serde); plain numbers are in this unit.
 pub(super) struct In<T>(KeyUnit, PhantomData<T>);
 
 impl<T> In<T> {
@@ -181,9 +182,24 @@ plain_values! {
     bool, "true/false";
     toml::Value, "list or text or table";
     [String; 2], "2 names";
-    ZoneMotion, "\"constant\", \"ballistic\", \"recorded\"";
-    ZoneTest, "\"centre\", \"lowest\"";
 }
+
+/// Words of the engine.
+macro_rules! engine_words {
+    ($($type:ty)*) => { $(
+        impl KeyValue for $type {
+            fn kind() -> String {
+                quoted(<$type>::ALL.iter().map(|word| word.name()))
+            }
+
+            fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<$type, D::Error> {
+                word(from, &<$type>::ALL, <$type>::name)
+            }
+        }
+    )* };
+}
+
+engine_words! { ZoneMotion ZoneTest }
 
 /// Whole numbers.
 macro_rules! whole_numbers {
@@ -226,7 +242,7 @@ impl<T: KeyValue> KeyValue for Option<T> {
         T::kind()
     }
 
-    fn table() -> Option<Shape> {
+    fn table() -> Option<TableShape> {
         T::table()
     }
 
@@ -247,6 +263,7 @@ impl<'de, T: KeyValue> Visitor<'de> for List<T> {
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match (T::table(), self.0.unit) {
+            // `text::parse` knows a list of tables by these words.
             (Some(_), _) => f.write_str("a sequence"),
             (None, "") => write!(f, "a list of {}", T::kind()),
             (None, unit) => write!(f, "a list of {} [{unit}]", T::kind()),
@@ -267,7 +284,7 @@ impl<T: KeyValue> KeyValue for Vec<T> {
         format!("list of {}", T::kind())
     }
 
-    fn table() -> Option<Shape> {
+    fn table() -> Option<TableShape> {
         T::table()
     }
 

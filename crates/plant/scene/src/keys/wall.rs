@@ -20,7 +20,7 @@ table! {
         mesh: Option<String> = absent("–"), "file", Any, "\"chute.stl\"";
         /// Surface of a solid: `box:…`, `cylinder:…`, `cone:…` or `sphere:…`; see below.
         solid: Option<ShapeText> = absent("–"), "m", Any, "\"cylinder:0,0,0,0,0,1,0.1\"";
-        /// Unit of the lengths in the file of `mesh` or `source`: "mm", "cm", "in", "ft"; this or `scale`.
+        /// Unit of the lengths in the file of `mesh` or `source`: "mm", "cm", "m", "in", "ft"; this or `scale`.
         units: Option<String> = absent("\"m\""), "", Any, "\"mm\"";
         /// Factor on the lengths in the file of `mesh` or `source`; this or `units`.
         scale: Option<f64> = absent("1"), "", Positive, "0.001";

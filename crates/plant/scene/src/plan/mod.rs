@@ -1,8 +1,8 @@
 //! From a scene to a plan: the engine's setup, and what comes in later.
 //!
-//! [`Scene::plan`] reads as the order of the steps: shapes of [`clumps`], [`grains`], [`walls`], inlets and outlets ([`zones`]), [`insertions`],
-//! and then the [`setup`] with the [`laws`] of contacts and bonds and the time step. Each room has the steps of its kind; each step adds to the
-//! [`builder`]. [`warnings`] about implausible values come last.
+//! [`Scene::plan_with`] reads as the order of the steps: shapes of [`clumps`]; [`grains`]; [`walls`], and fills again where they lie in one;
+//! inlets ([`zones`]); [`insertions`]; outlets; an outlet for what falls past all walls; then the [`setup`] with the [`laws`] and the time step.
+//! Each step adds to the [`builder`]. [`warnings`] about implausible values come last.
 
 mod builder;
 mod clumps;

@@ -4,9 +4,9 @@ use super::laws::{accuracy, bonds, contacts};
 use super::warnings::impact;
 use super::{NO_DENSITY, Plan};
 use crate::error::Result;
-use crate::keys::{Arithmetic, BackThroughZone, DragLaw, Patches, Sampling};
+use crate::keys::{Arithmetic, DragLaw, Patches, Sampling};
 use crate::plan::builder::PlanBuilder;
-use dem::setup::{self, CameBack, Guards, Setup, Step};
+use dem::setup::{self, Guards, Setup, Step};
 use geom::Vec3;
 
 impl PlanBuilder<'_> {
@@ -83,11 +83,7 @@ impl PlanBuilder<'_> {
             motion: guards.motion.unwrap_or(default.motion),
             // [[inlet]]s come before insertions, whose grains may get anywhere.
             cuts: self.keys().inlet.len() as u32,
-            zones: match guards.zones {
-                None | Some(BackThroughZone::Stops) => CameBack::Stops,
-                Some(BackThroughZone::IsRemoved) => CameBack::IsRemoved,
-                Some(BackThroughZone::Stays) => CameBack::Stays,
-            },
+            zones: guards.zones.unwrap_or_default(),
             energy: self.keys().energy_limit().unwrap_or(default.energy),
         }
     }

@@ -5,7 +5,7 @@ use super::cutting::{Cutting, Range, StageText};
 use geom::{Plane, Vec3};
 use record::column::{POSITION, SCALE};
 use scene::input::{ParticleFile, ParticleTable};
-use scene::keys::{Diameter, Particles};
+use scene::keys::{OneOrRange, Particles};
 use scene::{Result, Scene};
 use toml_edit::value;
 
@@ -47,7 +47,7 @@ pub(super) fn largest(scene: &Scene) -> Result<f64> {
     }
     let reaches = if m.clump.is_empty() { Vec::new() } else { scene.clump_reaches()? };
     for (clump, reach) in m.clump.iter().zip(reaches) {
-        let high = |scale: Option<Diameter>| scale.map_or(1.0, |s| s.high);
+        let high = |scale: Option<OneOrRange>| scale.map_or(1.0, |s| s.high);
         let fills = m.fill.iter().map(|f| (f.clump.as_deref(), high(f.scale)));
         let insertions = m.insert.iter().map(|f| (f.clump.as_deref(), high(f.scale)));
         let bodies = m.body.iter().map(|b| (Some(b.clump.as_str()), b.scale));

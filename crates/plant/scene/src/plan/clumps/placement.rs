@@ -2,11 +2,11 @@
 
 use crate::error::{Result, SceneError};
 use crate::input::{ParticleTable, RunClumps};
-use crate::keys::{Diameter, Fill, Particles};
+use crate::keys::{Fill, OneOrRange, Particles};
 use crate::plan::builder::PlanBuilder;
-use crate::plan::grains::fill::{LARGER, sizes};
+use crate::plan::grains::fill::{FILLED, LARGER, sizes};
 use crate::plan::grains::packing::{Packing, bounds};
-use crate::plan::grains::random::{generator, random_orientation};
+use crate::plan::grains::random::{CLUMPS, generator, random_orientation};
 use dem::setup::Body;
 use geom::{Shape, Vec3};
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -134,11 +134,10 @@ impl PlanBuilder<'_> {
         let clump = &self.clumps.shapes[kind as usize];
         let density = self.materials[clump.material as usize].density;
         let Some(corners) = bounds(shape) else {
-            let why = "cannot be filled: only box, sphere and cylinder (without '!') can";
-            return Err(self.check.wrong(&key("shape"), &entry.shape, why, "use one of these"));
+            return Err(self.check.wrong(&key("shape"), &entry.shape, FILLED, "use one of these"));
         };
-        let mut random = generator(entry.seed, 4, index as u64);
-        let range = entry.scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
+        let mut random = generator(entry.seed, CLUMPS, index as u64);
+        let range = entry.scale.unwrap_or(OneOrRange { low: 1.0, high: 1.0 });
         let mut scales = sizes(entry, range, MOST, |scale| clump.mass(scale, density), &mut random);
         scales.sort_by(|a, b| b.total_cmp(a));
         if scales.is_empty() || scales.len() as u64 > MOST {

@@ -1,18 +1,18 @@
 //! `[[fill]]`: spheres at random places of a shape, none touching another.
 //!
 //! They are placed one after the other, and the largest go first, while there is space; more than [`MANY`] are placed on a lattice
-//! ([`crate::plan::grains::lattice`]). Diameters and positions come from random numbers of this fill alone, so that a fill depends on the ones before
+//! ([`crate::plan::grains::one_per_cell`]). Diameters and positions come from random numbers of this fill alone, so that a fill depends on the ones before
 //! it only by the space they left.
 
 use crate::error::Result;
-use crate::keys::{Diameter, Fill, Lattice};
+use crate::keys::{Fill, Lattice, OneOrRange};
 use crate::plan::Placing;
 use crate::plan::builder::PlanBuilder;
-use crate::plan::grains::crystal;
 use crate::plan::grains::grading::{Grading, Grain};
 use crate::plan::grains::lattice;
+use crate::plan::grains::one_per_cell;
 use crate::plan::grains::packing::{Packing, Radii, bounds};
-use crate::plan::grains::random::{diameter, generator};
+use crate::plan::grains::random::{FILL, diameter, generator};
 use crate::plan::grains::sizes::EntryGrains;
 use dem::setup::Particle;
 use geom::{Shape, Vec3};
@@ -38,17 +38,15 @@ impl PlanBuilder<'_> {
         let key = |k: &str| format!("fill.{index}.{k}");
         let grading = self.grading(&entry.sized(index))?;
         let Some(corners) = bounds(shape) else {
-            let why =
-                "cannot be filled: only box, sphere, cylinder, cone and a closed mesh (without '!') can";
             let cure = "use one of these, or [[particles]] from a file";
-            return Err(self.check.wrong(&key("shape"), &entry.shape, why, cure));
+            return Err(self.check.wrong(&key("shape"), &entry.shape, FILLED, cure));
         };
         if let Some(lattice) = entry.lattice {
             let material = self.grain(&key("material"), entry.grains().material.unwrap_or_default())?.index;
             return self.fill_lattice(index, entry, (shape, corners), (lattice, material));
         }
         let largest = grading.range().high / 2.0;
-        let mut random = generator(entry.seed, 1, index as u64);
+        let mut random = generator(entry.seed, FILL, index as u64);
         let mut grains = self.grains_of(index, entry, grading, &mut random)?;
         let (first_id, taken) = (self.next_id(), self.taken());
         let many = grains.len() > MANY;
@@ -58,7 +56,7 @@ impl PlanBuilder<'_> {
         let hear = |placed| (self.hear)(Placing { fill: index, placed, of: grains.len() });
         let radii = Radii { all: &radii(&grains), hear: &hear };
         let places = if many {
-            lattice::places(shape, corners, &radii, &taken, &mut random)
+            one_per_cell::places(shape, corners, &radii, &taken, &mut random)
         } else {
             Packing::new(shape, corners, largest, &taken).place_all(&radii, &mut random)
         };
@@ -85,7 +83,7 @@ impl PlanBuilder<'_> {
     ) -> Result<()> {
         let (first_id, taken, diameter) =
             (self.next_id(), self.taken(), entry.diameter.unwrap_or_default().high);
-        let places = crystal::places(shape, corners, (lattice, diameter), &taken, MOST);
+        let places = lattice::places(shape, corners, (lattice, diameter), &taken, MOST);
         drop(taken);
         let key = |k: &str| format!("fill.{index}.{k}");
         let places = places.map_err(|sites| {
@@ -164,6 +162,10 @@ impl Fill {
     }
 }
 
+/// Why a shape is refused.
+pub(in crate::plan) const FILLED: &str =
+    "cannot be filled: only box, sphere, cylinder, cone and a closed mesh (without '!') can";
+
 /// The cure for a shape that is too small.
 pub(in crate::plan) const LARGER: &str =
     "make the shape larger (random places fill about a third of it), or pour with [[insert]]";
@@ -171,7 +173,7 @@ pub(in crate::plan) const LARGER: &str =
 /// Sizes at random in a range: as many as come nearest to the mass, but not more than one above `most`.
 pub(in crate::plan) fn sizes(
     entry: &Fill,
-    range: Diameter,
+    range: OneOrRange,
     most: u64,
     mass_of: impl Fn(f64) -> f64,
     random: &mut Pcg64Mcg,

@@ -15,7 +15,7 @@
 //! u ← u + (√5 − 1)/2, less 1 from 1 on, from a random start: any n of them fill [0, 1) evenly
 //! ```
 
-use crate::keys::{Diameter, ShareOf};
+use crate::keys::{OneOrRange, ShareOf};
 use crate::plan::grains::random::{diameter, unit};
 use geom::sphere::volume;
 use rand_pcg::Pcg64Mcg;
@@ -38,7 +38,7 @@ pub(in crate::plan) enum Spread {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::plan) struct Class {
     /// Diameters [m].
-    pub range: Diameter,
+    pub range: OneOrRange,
     /// How they lie in between.
     pub spread: Spread,
     /// Share of the whole, of mass or of number [–]; all together are 1.
@@ -56,7 +56,7 @@ impl Class {
     }
 
     fn mean_volume(&self) -> f64 {
-        let Diameter { low, high } = self.range;
+        let OneOrRange { low, high } = self.range;
         let (wide, cube) = (libm::log(high / low), |d: f64| d * d * d);
         let cubed = match self.spread {
             _ if low == high => cube(low),
@@ -69,7 +69,7 @@ impl Class {
 
     /// The next diameter [m], and its u on a curve, after the `last` one.
     fn diameter(&self, last: Option<f64>, random: &mut Pcg64Mcg) -> (f64, Option<f64>) {
-        let Diameter { low, high } = self.range;
+        let OneOrRange { low, high } = self.range;
         if self.spread == Spread::Uniform {
             return (diameter(self.range, random), None);
         }
@@ -118,7 +118,7 @@ impl Grading {
     }
 
     /// One material, diameters uniform in a range.
-    pub(in crate::plan) fn uniform(range: Diameter, material: u16, density: f64) -> Grading {
+    pub(in crate::plan) fn uniform(range: OneOrRange, material: u16, density: f64) -> Grading {
         Grading::new(
             vec![Class { range, spread: Spread::Uniform, share: 1.0, material, density }],
             ShareOf::Mass,
@@ -126,10 +126,10 @@ impl Grading {
     }
 
     /// Smallest and largest diameter [m].
-    pub(in crate::plan) fn range(&self) -> Diameter {
+    pub(in crate::plan) fn range(&self) -> OneOrRange {
         let low = self.classes.iter().map(|c| c.range.low).fold(f64::INFINITY, f64::min);
         let high = self.classes.iter().map(|c| c.range.high).fold(0.0, f64::max);
-        Diameter { low, high }
+        OneOrRange { low, high }
     }
 
     /// Material and radius [m] of the smallest and of the largest grain of each class.
@@ -191,7 +191,7 @@ mod tests {
 
     fn classes(list: &[(f64, f64)]) -> Vec<Class> {
         let class = |&(d, share): &(f64, f64)| {
-            let range = Diameter { low: d, high: d };
+            let range = OneOrRange { low: d, high: d };
             Class { range, spread: Spread::Uniform, share, material: 0, density: 1000.0 }
         };
         list.iter().map(class).collect()
@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn between_two_sieves_mass_or_number_is_even_over_the_logarithm() {
         for (spread, of) in [(Spread::Mass, ShareOf::Mass), (Spread::Number, ShareOf::Number)] {
-            let range = Diameter { low: 0.004, high: 0.016 };
+            let range = OneOrRange { low: 0.004, high: 0.016 };
             let class = Class { range, spread, share: 1.0, material: 0, density: 1000.0 };
             let mut grading = Grading::new(vec![class], of);
             let mut random = generator(0, 1, 0);

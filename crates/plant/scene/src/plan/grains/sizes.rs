@@ -10,7 +10,7 @@
 
 use crate::error::{Result, SceneError};
 use crate::input::table_of;
-use crate::keys::{Diameter, GrainKeys, ShareOf};
+use crate::keys::{GrainKeys, OneOrRange, ShareOf};
 use crate::plan::builder::{GrainMaterial, PlanBuilder};
 use crate::plan::grains::grading::{Class, Grading, Spread};
 use geom::{Shown, units};
@@ -24,7 +24,7 @@ const REST: f64 = 1e-6;
 
 /// A range of diameters [m], its share, and its material where it names one.
 struct Part {
-    range: Diameter,
+    range: OneOrRange,
     /// Whether it is one of a curve, with even shares over ln d.
     of_curve: bool,
     share: f64,
@@ -111,10 +111,10 @@ impl EntryGrains<'_> {
             _ => return Err(self.wrong(plan, &row.to_string(), "is not a diameter and a share")),
         };
         let range = match size.as_array().map(Vec::as_slice) {
-            Some([low, high]) => Diameter { low: self.length(plan, low)?, high: self.length(plan, high)? },
+            Some([low, high]) => OneOrRange { low: self.length(plan, low)?, high: self.length(plan, high)? },
             _ => {
                 let d = self.length(plan, size)?;
-                Diameter { low: d, high: d }
+                OneOrRange { low: d, high: d }
             }
         };
         if range.low > range.high {
@@ -183,7 +183,7 @@ impl EntryGrains<'_> {
             return Err(wrong(format!("passing goes from {} to {}", Shown(passing[0]), Shown(whole))));
         }
         let part = |k: usize| {
-            let range = Diameter { low: scale * sizes[k], high: scale * sizes[k + 1] };
+            let range = OneOrRange { low: scale * sizes[k], high: scale * sizes[k + 1] };
             let share = passing[k + 1] - passing[k];
             (share > 0.0).then_some(Part { range, of_curve: true, share, material: None })
         };
@@ -222,11 +222,11 @@ impl EntryGrains<'_> {
                 return Err(self.wrong(plan, &format!("\"{other}\""), why));
             }
         };
-        let range = Diameter { low: length("from")?, high: length("to")? };
+        let range = OneOrRange { low: length("from")?, high: length("to")? };
         if range.low >= range.high {
             return Err(self.wrong(plan, &inline(table), "ends ('to') before it begins ('from')"));
         }
-        let share = |range: &Diameter| smaller(range.high) - smaller(range.low);
+        let share = |range: &OneOrRange| smaller(range.high) - smaller(range.low);
         // Where hardly anything is there is no class: a narrow law is not spread by a wide range.
         let parts = edges(within(range, &smaller), CLASSES).map(|range| Part {
             share: share(&range),
@@ -253,7 +253,7 @@ fn inline(table: &Table) -> String {
 }
 
 /// The part of a range outside of which the share `smaller` of a distribution changes by less than [`REST`].
-fn within(range: Diameter, smaller: &dyn Fn(f64) -> f64) -> Diameter {
+fn within(range: OneOrRange, smaller: &dyn Fn(f64) -> f64) -> OneOrRange {
     let whole = smaller(range.high) - smaller(range.low);
     let at = |part: f64| {
         let (mut low, mut high) = (range.low, range.high);
@@ -263,19 +263,19 @@ fn within(range: Diameter, smaller: &dyn Fn(f64) -> f64) -> Diameter {
         }
         (low, high)
     };
-    let Diameter { low, high } = Diameter { low: at(REST).0, high: at(1.0 - REST).1 };
-    if low < high { Diameter { low, high } } else { range }
+    let OneOrRange { low, high } = OneOrRange { low: at(REST).0, high: at(1.0 - REST).1 };
+    if low < high { OneOrRange { low, high } } else { range }
 }
 
 /// A range in parts of equal width in ln d.
-fn edges(range: Diameter, count: usize) -> impl Iterator<Item = Diameter> {
+fn edges(range: OneOrRange, count: usize) -> impl Iterator<Item = OneOrRange> {
     let ratio = range.high / range.low;
     let edge = move |k: usize| match k {
         0 => range.low,
         k if k == count => range.high,
         k => range.low * libm::pow(ratio, k as f64 / count as f64),
     };
-    (0..count).map(move |k| Diameter { low: edge(k), high: edge(k + 1) })
+    (0..count).map(move |k| OneOrRange { low: edge(k), high: edge(k + 1) })
 }
 
 #[cfg(test)]
@@ -293,9 +293,9 @@ mod tests {
         let median = 0.01;
         let root = std::f64::consts::SQRT_2 * deviation;
         let smaller = |d: f64| 0.5 + 0.5 * libm::erf(libm::log(d / median) / root);
-        let range = Diameter { low: 0.004, high: 0.025 };
+        let range = OneOrRange { low: 0.004, high: 0.025 };
         for (by, spread) in [(ShareOf::Mass, Spread::Mass), (ShareOf::Number, Spread::Number)] {
-            let class = |range: Diameter| {
+            let class = |range: OneOrRange| {
                 let share = smaller(range.high) - smaller(range.low);
                 Class { range, spread, share, material: 0, density: 1000.0 }
             };

@@ -4,7 +4,7 @@ use crate::check::Check;
 use crate::error::Result;
 use crate::keys::Insert;
 use crate::plan::grains::grading::{Grading, Grain};
-use crate::plan::grains::random::{generator, random_orientation};
+use crate::plan::grains::random::{INSERT, generator, random_orientation};
 use crate::plan::insertions::section::Section;
 use crate::plan::insertions::total::Total;
 use crate::plan::insertions::windows::Windows;
@@ -67,7 +67,7 @@ pub(in crate::plan) struct Coming {
 pub(in crate::plan) struct InsertedClump {
     /// Index of the shape.
     pub shape: u32,
-    /// Diameter of the sphere that holds it at scale 1 [m].
+    /// OneOrRange of the sphere that holds it at scale 1 [m].
     pub size: f64,
 }
 
@@ -117,7 +117,7 @@ impl Feed {
             count: 0,
             first_id,
             inlet,
-            random: generator(entry.seed, 2, index as u64),
+            random: generator(entry.seed, INSERT, index as u64),
         };
         if let (Some(mass), None) = (entry.mass, feed.next_time()) {
             let (value, cure) = (format!("{mass} kg"), "give more mass, or count");

@@ -7,7 +7,7 @@ pub(in crate::plan) mod total;
 pub(in crate::plan) mod windows;
 
 use crate::error::Result;
-use crate::keys::{Diameter, Insert};
+use crate::keys::{Insert, OneOrRange};
 use crate::plan::builder::PlanBuilder;
 use crate::plan::grains::grading::Grading;
 use crate::plan::grains::sizes::EntryGrains;
@@ -79,18 +79,18 @@ impl PlanBuilder<'_> {
     fn inserted(&mut self, i: usize, entry: &Insert) -> Result<Inserted> {
         let Some(name) = &entry.clump else {
             let grading = self.grading(&entry.sized(i))?;
-            let Diameter { low, high } = grading.range();
+            let OneOrRange { low, high } = grading.range();
             self.will_enter(Sizes { smallest: low / 2.0, largest: high / 2.0 }, true);
             self.entry_materials.extend(grading.materials());
             return Ok(Inserted { grading, clump: None, ids: 1 });
         };
         let index = self.clump(&format!("insert.{i}.clump"), name)?;
         let shape = &self.clumps.shapes[index as usize];
-        let scale = entry.scale.unwrap_or(Diameter { low: 1.0, high: 1.0 });
+        let scale = entry.scale.unwrap_or(OneOrRange { low: 1.0, high: 1.0 });
         let (least, most) = shape.radii();
         let (reach, density) = (shape.reach(), self.materials[shape.material as usize].density);
         let size = 2.0 * reach;
-        let range = Diameter { low: scale.low * size, high: scale.high * size };
+        let range = OneOrRange { low: scale.low * size, high: scale.high * size };
         let inserted = Inserted {
             grading: Grading::uniform(range, shape.material, shape.mass(1.0, density) / volume(reach)),
             clump: Some(InsertedClump { shape: index, size }),

@@ -1,4 +1,4 @@
-//! Contacts of the pairs of materials that can meet.
+//! Contacts of grains with walls: what a wall file says of friction and restitution, where the scene has no entry.
 
 use crate::plan::builder::PlanBuilder;
 use dem::setup::ContactLaw;
