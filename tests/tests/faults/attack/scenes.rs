@@ -1,11 +1,10 @@
-//! Every key of a scene, read from the tables of docs/reference/scene.md, with each of fourteen values.
+//! Every key of a scene, with each of fourteen values.
 
 use super::case::Case;
 use super::{files, values};
-use std::fs;
-use std::path::Path;
+use scene::keys::{Section, sections};
 
-/// A scene that has a table for every heading of docs/reference/scene.md that goes together.
+/// A scene that has every table that goes together.
 const SCENE: &str = r#"
 gravity = [0, 0, -9.81]
 [time]
@@ -56,38 +55,17 @@ servo = { direction = [0, 0, -1], force = 1, speed_limit = 0.1 }
 
 /// Keys as `--set` names them.
 pub fn keys() -> Vec<String> {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let docs = docs
-        .ancestors()
-        .map(|d| d.join("docs/reference/scene.md"))
-        .find(|d| d.exists())
-        .expect("docs/reference/scene.md");
-    let text = fs::read_to_string(docs).expect("text");
-    let (mut table, mut inner, mut keys) = (String::new(), String::new(), Vec::new());
-    for line in text.lines() {
-        if let Some(heading) = line.strip_prefix("## ") {
-            inner.clear();
-            table = match heading.trim_matches('`') {
-                "Top level" => String::new(),
-                "Contacts" => "contact.0.".to_owned(),
-                "Bonds" => "bond.0.".to_owned(),
-                h if h.starts_with("[[") => format!("{}.0.", h.trim_matches(['[', ']'])),
-                h => format!("{}.", h.trim_matches(['[', ']'])),
-            };
-        } else if let Some(rest) = line.strip_prefix("| key of `") {
-            inner = rest.split('`').next().map(|k| format!("{k}.")).unwrap_or_default();
-        } else if line.starts_with("| key |") {
-            inner.clear();
-        } else if let Some(key) = line.strip_prefix("| `").and_then(|l| l.split('`').next()) {
+    let of = |section: Section| {
+        let table = match section.path.split_once('.') {
             // The servo belongs to the second wall.
-            let table = if inner == "servo." { "wall.1." } else { &table };
-            keys.push(format!("{table}{}{key}", if inner.starts_with('[') { "" } else { &inner }));
-        }
-    }
-    keys.retain(|k| k.chars().all(|c| c.is_ascii_alphanumeric() || "._".contains(c)));
-    keys.sort();
-    keys.dedup();
-    keys
+            Some(("wall", inner)) => format!("wall.{}.{inner}.", usize::from(inner == "servo")),
+            _ if section.path.is_empty() => String::new(),
+            _ if section.many => format!("{}.0.", section.path),
+            _ => format!("{}.", section.path),
+        };
+        section.rows.into_iter().map(move |row| format!("{table}{}", row.name))
+    };
+    sections().into_iter().flat_map(of).collect()
 }
 
 /// All cases: keys × values.
