@@ -148,6 +148,10 @@ box = [0, 0, -1, 1, 1, 2]
 faces = ["x-", "x+", "y-", "y+"]
 material = "steel"
 [[wall]]
+box = [0, 0, -1, 1, 1, 2]
+faces = ["z-", "z+"]
+material = "steel"
+[[wall]]
 mesh = "tetra.ply"
 material = "steel"
 motion = { rotate = { about = [0, 0, 1], through = [0.1, 0.1, 0], rpm = 10 } }
@@ -159,7 +163,7 @@ material = "steel"
 mesh = "tetra.ply"
 scale = 0.5
 material = "steel"
-place = [{ rotate = { about = [0, 0, 1], through = [0.1, 0, 0], angle = "20 deg" }, translate = [0, 0, 0.001] }, { translate = [0, 0, 0.001] }]
+place = [{ rotate = { about = [0, 0, 1], through = [0.1, 0, 0], angle = "20 deg" }, translate = [0, 0, 0.001] }, { rotate = { about = [0, 0, 1], angle = 0.1 } }]
 [[wall]]
 source = "walls.mcap"
 units = "m"
@@ -168,6 +172,7 @@ mesh = "tetra.ply"
 material = "steel"
 motion = [
     { swing = { about = [0, 1, 0], through = [0.1, 0, 0], amplitude = "15 deg", frequency = 2 }, ramp = 0.0005 },
+    { swing = { about = [1, 0, 0], through = [0.1, 0, 0], amplitude = 0.1, frequency = 2 } },
     { path = { source = "path.csv", about = [0, 0, 1], through = [0, 0, 0] }, from = 0.0005, until = 0.001, repeat = 0.001 },
 ]
 [[wall]]
@@ -467,8 +472,8 @@ fn three() -> String {
 /// A domain, strained along x as `x` says.
 fn strained(domain: &str, x: &str) -> String {
     format!(
-        "[time]\nuntil = 0.002\n[domain]\nperiodic = [\"x\", \"y\", \"z\"]\n{domain}[domain.strain]\nx = {{ {x} }}\n\
-         {MATERIALS}{CONTACT}[[particles]]\nsource = \"grains.csv\"\nmaterial = \"sinter\"\n"
+        "[time]\nuntil = 0.002\n[domain]\nperiodic = [\"x\", \"y\", \"z\"]\n{domain}[domain.strain]\nx = {{ {x} }}\ny = {{ rate = 0.1 }}\n\
+         z = {{ rate = 0.1 }}\n{MATERIALS}{CONTACT}[[particles]]\nsource = \"grains.csv\"\nmaterial = \"sinter\"\n"
     )
 }
 
