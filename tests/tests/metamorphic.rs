@@ -74,6 +74,8 @@ const LEFT_OUT: &[(&str, &str)] = &[
     ("clump.faces", "stands beside `mesh`"),
     ("insert.repeat", "opens seconds later: a test of its windows compares each with those written out"),
     ("insert.times", "stands beside `repeat`"),
+    ("wall.motion.path.about", "the tables that are drawn have no angle"),
+    ("wall.motion.path.through", "the tables that are drawn have no angle"),
     ("wall.motion.repeat", "goes on seconds later: a test compares each kind of motion with a list"),
     ("inlet.", "needs the record of a stage upstream: the tests of zones and stages cut scenes and compare"),
 ];

@@ -2,6 +2,7 @@
 
 mod continued;
 mod device;
+mod keys;
 mod misplaced;
 mod parts;
 mod watch;
@@ -73,7 +74,7 @@ struct Args {
 
 fn main() -> ExitCode {
     cli::run("dem-run", |args: Args| {
-        let Some(scene) = args.scene.clone() else { return keys(&args.output) };
+        let Some(scene) = args.scene.clone() else { return keys::print(&args.output) };
         dem_run(args, &scene).map_err(|e| in_scene(e, scene.to_string()))
     })
 }
@@ -81,14 +82,6 @@ fn main() -> ExitCode {
 /// Adds the name of the scene file to an error of the engine.
 fn in_scene(error: anyhow::Error, scene: String) -> anyhow::Error {
     if error.chain().any(|cause| cause.is::<SceneSetupError>()) { error.context(scene) } else { error }
-}
-
-/// Prints the reference of scenes.
-fn keys(output: &Output) -> anyhow::Result<Report> {
-    let mut out = output.open_text()?;
-    out.write_all(scene::keys::reference().as_bytes()).context("--keys")?;
-    out.commit()?;
-    Ok(Report::new(format!("{} keys; docs/reference/scene.md explains them", scene::keys::rows().len())))
 }
 
 fn dem_run(args: Args, scene: &Source) -> anyhow::Result<Report> {

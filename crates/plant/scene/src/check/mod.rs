@@ -14,7 +14,7 @@ mod servo;
 mod walls;
 
 use crate::error::{Result, SceneError, ValueError, nearest, shown};
-use crate::keys::{Key, Range, SceneKeys, Table};
+use crate::keys::{Judge, Key, Range, SceneKeys, Table};
 use crate::text::Text;
 use dem::setup::Material;
 use std::fmt::Display;
@@ -23,6 +23,46 @@ use std::fmt::Display;
 pub struct Check<'a> {
     /// The scene, for places in it.
     pub text: &'a Text,
+}
+
+impl Judge for Check<'_> {
+    fn numbers(&self, at: &str, key: &Key, numbers: &[f64]) -> Result<()> {
+        let each =
+            |low: f64, high: f64| numbers.iter().try_for_each(|v| self.within(at, *v, low, high, key.unit));
+        let positive = || numbers.iter().try_for_each(|v| self.positive(at, *v, key.unit));
+        match key.range {
+            Range::Any | Range::Name => Ok(()),
+            Range::Finite => self.finite(at, numbers, key.unit),
+            Range::Positive => positive(),
+            Range::FromZero => each(0.0, dem::magnitudes(key.unit)[1]),
+            Range::Within(low, high) => each(low, high),
+            Range::Between(low, high) => numbers.iter().try_for_each(|v| self.between(at, *v, [low, high])),
+            Range::AtLeast(low) => each(low, f64::INFINITY),
+            Range::AboveZeroUpTo(high) => positive().and_then(|()| each(0.0, high)),
+            Range::Poisson => numbers.iter().try_for_each(|v| self.poisson(at, *v)),
+            Range::Pair => {
+                positive()?;
+                match numbers {
+                    [low, high] if low > high => {
+                        let value = format!("[{low}, {high}] {}", key.unit);
+                        Err(self.wrong(
+                            at,
+                            value.trim_end(),
+                            "the range is upside down",
+                            "give [smallest, largest]",
+                        ))
+                    }
+                    _ => Ok(()),
+                }
+            }
+        }
+    }
+
+    fn name(&self, key: &str, name: &str) -> Result<()> {
+        let Some(c) = record::name::forbidden(name) else { return Ok(()) };
+        let why = format!("has {}", record::name::in_words(c));
+        Err(self.wrong(key, format!("{name:?}"), &why, record::name::CURE))
+    }
 }
 
 impl Check<'_> {
@@ -35,13 +75,6 @@ impl Check<'_> {
             why: why.to_owned(),
             cure: cure.to_owned(),
         }))
-    }
-
-    /// A name without control characters: it goes into scripts and tables.
-    pub(crate) fn name(&self, key: &str, name: &str) -> Result<()> {
-        let Some(c) = record::name::forbidden(name) else { return Ok(()) };
-        let why = format!("has {}", record::name::in_words(c));
-        Err(self.wrong(key, format!("{name:?}"), &why, record::name::CURE))
     }
 
     /// A number above zero, where there is one.
@@ -91,39 +124,6 @@ impl Check<'_> {
             return self.within(key, *worst, -most, most, unit);
         }
         Err(self.wrong(key, format!("{value:?} {unit}"), "must be finite", "give numbers"))
-    }
-
-    /// The numbers of a key, in the range that it names.
-    pub(crate) fn range(&self, at: &str, key: &Key, numbers: &[f64]) -> Result<()> {
-        let each =
-            |low: f64, high: f64| numbers.iter().try_for_each(|v| self.within(at, *v, low, high, key.unit));
-        let positive = || numbers.iter().try_for_each(|v| self.positive(at, *v, key.unit));
-        match key.range {
-            Range::Any | Range::Name => Ok(()),
-            Range::Finite => self.finite(at, numbers, key.unit),
-            Range::Positive => positive(),
-            Range::FromZero => each(0.0, dem::magnitudes(key.unit)[1]),
-            Range::Within(low, high) => each(low, high),
-            Range::Between(low, high) => numbers.iter().try_for_each(|v| self.between(at, *v, [low, high])),
-            Range::AtLeast(low) => each(low, f64::INFINITY),
-            Range::AboveZeroUpTo(high) => positive().and_then(|()| each(0.0, high)),
-            Range::Poisson => numbers.iter().try_for_each(|v| self.poisson(at, *v)),
-            Range::Pair => {
-                positive()?;
-                match numbers {
-                    [low, high] if low > high => {
-                        let value = format!("[{low}, {high}] {}", key.unit);
-                        Err(self.wrong(
-                            at,
-                            value.trim_end(),
-                            "the range is upside down",
-                            "give [smallest, largest]",
-                        ))
-                    }
-                    _ => Ok(()),
-                }
-            }
-        }
     }
 
     /// One and only one of several keys.

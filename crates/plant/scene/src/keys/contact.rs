@@ -1,7 +1,6 @@
 //! `[[contact]]`, whose keys are those of the engine's effects.
 
-use super::sections::Row;
-use super::table::{OneOf, REQUIRED, TableShape};
+use super::table::{OneOf, REQUIRED, Row, TableShape};
 use super::value::{In, KeyUnit, KeyValue, begins_as_number, quoted, unknown_word};
 use dem::effects::{DESCRIPTIONS, Description, Key, NORMAL_DAMPING, RESTITUTION, keys, models};
 use dem::setup::ContactLaw;

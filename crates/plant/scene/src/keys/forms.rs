@@ -1,9 +1,8 @@
 //! Values that may be written in two ways: a share, a word or a truth value, one table or a list of them.
 
-use super::table::{Key, Table, TableShape, TableVisitor};
+use super::table::{Judge, Key, Table, TableShape, TableVisitor};
 use super::value::{In, KeyUnit, KeyValue};
 use super::{Accuracy, EnergyGuard};
-use crate::check::Check;
 use crate::error::Result as Checked;
 use dem::setup::CameBack;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
@@ -160,8 +159,8 @@ impl<T: Table> KeyValue for OneOrMore<T> {
         from.deserialize_any(TableOrList(PhantomData)).map(OneOrMore)
     }
 
-    fn check(&self, check: &Check, at: &str, _: &Key) -> Checked<()> {
-        self.entries(at).try_for_each(|(key, table)| table.check_keys(check, &key))
+    fn check(&self, judge: &dyn Judge, at: &str, _: &Key) -> Checked<()> {
+        self.entries(at).try_for_each(|(key, table)| table.check_keys(judge, &key))
     }
 }
 

@@ -1,52 +1,9 @@
 //! The keys of scenes as people read them: sections of docs/reference/scene.md, and the text of `dem-run --keys`.
 
 use super::SceneKeys;
-use super::table::{Key, REQUIRED, TableShape, dotted};
+use super::table::{Row, TableShape, dotted};
 use super::value::KeyValue;
 use std::fmt::Write;
-
-/// A key as people read about it.
-#[derive(Debug, Clone)]
-pub struct Row {
-    /// Its name; with dots where it stands in a table inside of the section.
-    pub name: String,
-    /// Its type in words.
-    pub kind: String,
-    /// Unit of plain numbers; "" for none, "file" for the name of a file.
-    pub unit: &'static str,
-    /// The numbers that it takes, in words.
-    pub range: String,
-    /// What holds without it, in words.
-    pub default: String,
-    /// What it means.
-    pub doc: String,
-    /// A value in TOML; "" for a table.
-    pub example: String,
-    /// The table that is its value, if it is one.
-    pub(crate) table: Option<TableShape>,
-}
-
-impl Row {
-    /// Whether the table cannot do without it.
-    pub fn is_required(&self) -> bool {
-        self.default == REQUIRED
-    }
-}
-
-impl From<&Key> for Row {
-    fn from(key: &Key) -> Row {
-        Row {
-            name: key.name.to_owned(),
-            kind: if key.unit == "file" { "file".to_owned() } else { (key.kind)() },
-            unit: if key.unit == "file" { "" } else { key.unit },
-            range: key.range.to_string(),
-            default: key.default.replace(".0", ""),
-            doc: key.doc.trim().trim_end_matches('.').to_owned(),
-            example: key.example.to_owned(),
-            table: (key.table)(),
-        }
-    }
-}
 
 /// A table of keys, and those of the small tables in it.
 #[derive(Debug, Clone)]

@@ -1,9 +1,7 @@
 //! Tables of keys. [`table!`] declares each key of a scene once: name, type, default, unit, range, meaning, example. It becomes the field
 //! of a struct, the reader of that field, the check of its range, and a row of docs/reference/scene.md and of `dem-run --keys`.
 
-use super::sections::Row;
 use super::value::{KeyUnit, KeyValue};
-use crate::check::Check;
 use crate::error::Result;
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
@@ -75,8 +73,66 @@ pub struct Key {
     pub table: fn() -> Option<TableShape>,
 }
 
+/// What judges the values of keys.
+pub trait Judge {
+    /// Whether numbers are in the range of their key.
+    ///
+    /// # Errors
+    /// The first that is not.
+    fn numbers(&self, at: &str, key: &Key, numbers: &[f64]) -> Result<()>;
+
+    /// Whether a text may be a name.
+    ///
+    /// # Errors
+    /// A text with control characters.
+    fn name(&self, at: &str, text: &str) -> Result<()>;
+}
+
 /// The default of a key that must be there.
 pub const REQUIRED: &str = "required";
+
+/// A key as people read about it.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// Its name; with dots where it stands in a table inside of the section.
+    pub name: String,
+    /// Its type in words.
+    pub kind: String,
+    /// Unit of plain numbers; "" for none, "file" for the name of a file.
+    pub unit: &'static str,
+    /// The numbers that it takes, in words.
+    pub range: String,
+    /// What holds without it, in words.
+    pub default: String,
+    /// What it means.
+    pub doc: String,
+    /// A value in TOML; "" for a table.
+    pub example: String,
+    /// The table that is its value, if it is one.
+    pub(crate) table: Option<TableShape>,
+}
+
+impl Row {
+    /// Whether the table cannot do without it.
+    pub fn is_required(&self) -> bool {
+        self.default == REQUIRED
+    }
+}
+
+impl From<&Key> for Row {
+    fn from(key: &Key) -> Row {
+        Row {
+            name: key.name.to_owned(),
+            kind: if key.unit == "file" { "file".to_owned() } else { (key.kind)() },
+            unit: if key.unit == "file" { "" } else { key.unit },
+            range: key.range.to_string(),
+            default: key.default.replace(".0", ""),
+            doc: key.doc.trim().trim_end_matches('.').to_owned(),
+            example: key.example.to_owned(),
+            table: (key.table)(),
+        }
+    }
+}
 
 /// What a table looks like from outside.
 #[derive(Debug, Clone)]
@@ -110,7 +166,7 @@ pub trait Table: Sized {
     ///
     /// # Errors
     /// The first value out of its range.
-    fn check_keys(&self, check: &Check, at: &str) -> Result<()>;
+    fn check_keys(&self, judge: &dyn Judge, at: &str) -> Result<()>;
 }
 
 impl<T: Table> KeyValue for T {
@@ -126,8 +182,8 @@ impl<T: Table> KeyValue for T {
         from.deserialize_map(TableVisitor(PhantomData))
     }
 
-    fn check(&self, check: &Check, at: &str, _: &Key) -> Result<()> {
-        self.check_keys(check, at)
+    fn check(&self, judge: &dyn Judge, at: &str, _: &Key) -> Result<()> {
+        self.check_keys(judge, at)
     }
 }
 
@@ -218,12 +274,12 @@ macro_rules! table {
                 },)* })
             }
 
-            fn check_keys(&self, check: &$crate::check::Check, at: &str) -> $crate::error::Result<()> {
+            fn check_keys(&self, judge: &dyn $crate::keys::table::Judge, at: &str) -> $crate::error::Result<()> {
                 // One for each field, in the same order.
                 let mut keys = Self::KEYS.iter();
                 $(if let Some(key) = keys.next() {
                     let at = $crate::keys::table::dotted(at, key.name);
-                    $crate::keys::value::KeyValue::check(&self.$field, check, &at, key)?;
+                    $crate::keys::value::KeyValue::check(&self.$field, judge, &at, key)?;
                 })*
                 Ok(())
             }

@@ -3,8 +3,7 @@
 //! Numbers are plain in the unit of their key, or text with a unit such as "8 mm". Lists may be written as a list of numbers and texts, or as
 //! one text with commas.
 
-use super::table::{Key, Range, TableShape};
-use crate::check::Check;
+use super::table::{Judge, Key, Range, TableShape};
 use crate::error::Result as Checked;
 use dem::setup::{ZoneMotion, ZoneTest};
 use geom::units;
@@ -103,8 +102,8 @@ pub trait KeyValue: Sized {
     ///
     /// # Errors
     /// The first that is not.
-    fn check(&self, check: &Check, at: &str, key: &Key) -> Checked<()> {
-        check.range(at, key, &self.numbers())
+    fn check(&self, judge: &dyn Judge, at: &str, key: &Key) -> Checked<()> {
+        judge.numbers(at, key, &self.numbers())
     }
 }
 
@@ -231,8 +230,8 @@ impl KeyValue for String {
         String::deserialize(from)
     }
 
-    fn check(&self, check: &Check, at: &str, key: &Key) -> Checked<()> {
-        if key.range == Range::Name { check.name(at, self) } else { Ok(()) }
+    fn check(&self, judge: &dyn Judge, at: &str, key: &Key) -> Checked<()> {
+        if key.range == Range::Name { judge.name(at, self) } else { Ok(()) }
     }
 }
 
@@ -250,8 +249,8 @@ impl<T: KeyValue> KeyValue for Option<T> {
         T::read(unit, from).map(Some)
     }
 
-    fn check(&self, check: &Check, at: &str, key: &Key) -> Checked<()> {
-        self.as_ref().map_or(Ok(()), |value| value.check(check, at, key))
+    fn check(&self, judge: &dyn Judge, at: &str, key: &Key) -> Checked<()> {
+        self.as_ref().map_or(Ok(()), |value| value.check(judge, at, key))
     }
 }
 
@@ -292,7 +291,7 @@ impl<T: KeyValue> KeyValue for Vec<T> {
         from.deserialize_seq(List(unit, PhantomData))
     }
 
-    fn check(&self, check: &Check, at: &str, key: &Key) -> Checked<()> {
-        self.iter().enumerate().try_for_each(|(i, value)| value.check(check, &format!("{at}.{i}"), key))
+    fn check(&self, judge: &dyn Judge, at: &str, key: &Key) -> Checked<()> {
+        self.iter().enumerate().try_for_each(|(i, value)| value.check(judge, &format!("{at}.{i}"), key))
     }
 }

@@ -28,41 +28,47 @@ pub fn width(text: &str, height: f64) -> f64 {
     text.chars().map(|letter| f64::from(font.metrics(letter, size).advance_width)).sum()
 }
 
+/// A letter in a line of text.
+struct Letter {
+    /// Its first column, and one past the last.
+    columns: [i32; 2],
+    /// Its lowest row above the line, and one past the highest.
+    rows: [i32; 2],
+    /// Ink of each pixel, row by row from above, 0 to 255.
+    ink: Vec<u8>,
+}
+
 /// A line of text whose capitals are so high [pixel], with a margin of empty pixels.
 pub fn ink(text: &str, height: f64, margin: usize) -> Ink {
     let size = height as f32 / CAPITAL;
     let mut at = 0.0;
-    let mut letters = Vec::new();
+    let mut letters: Vec<Letter> = Vec::new();
     for letter in text.chars() {
         let Some(font) = FONT.as_ref() else { continue };
-        let (metrics, shares) = font.rasterize(letter, size);
-        if metrics.width > 0 {
-            let left = (at + metrics.bounds.xmin).round() as i32;
-            let bottom = metrics.bounds.ymin.round() as i32;
-            letters.push((left, bottom, metrics, shares));
+        let (metrics, ink) = font.rasterize(letter, size);
+        let [left, bottom] = [at + metrics.bounds.xmin, metrics.bounds.ymin].map(|v| v.round() as i32);
+        let (columns, rows) = ([left, left + metrics.width as i32], [bottom, bottom + metrics.height as i32]);
+        if !ink.is_empty() {
+            letters.push(Letter { columns, rows, ink });
         }
         at += metrics.advance_width;
     }
-    let side = |of: &dyn Fn(&(i32, i32, fontdue::Metrics, Vec<u8>)) -> i32| {
-        letters.iter().map(of).collect::<Vec<_>>()
-    };
-    let lefts = side(&|l| l.0);
-    let rights = side(&|l| l.0 + l.2.width as i32);
-    let bottoms = side(&|l| l.1);
-    let tops = side(&|l| l.1 + l.2.height as i32);
-    let [left, right] = [lefts.iter().min(), rights.iter().max()].map(|v| v.copied().unwrap_or(0));
-    let [bottom, top] = [bottoms.iter().min(), tops.iter().max()].map(|v| v.copied().unwrap_or(0));
+    let least = |of: fn(&Letter) -> i32| letters.iter().map(of).min().unwrap_or(0);
+    let most = |of: fn(&Letter) -> i32| letters.iter().map(of).max().unwrap_or(0);
+    let [left, right] = [least(|l| l.columns[0]), most(|l| l.columns[1])];
+    let [bottom, top] = [least(|l| l.rows[0]), most(|l| l.rows[1])];
     let [wide, high] = [right - left, top - bottom].map(|n| n as usize + 2 * margin);
-    let mut ink = vec![0.0f64; wide * high];
-    for (x0, y0, metrics, shares) in &letters {
-        for (n, share) in shares.iter().enumerate() {
-            let x = (x0 - left) as usize + margin + n % metrics.width;
-            let y = (top - y0) as usize - metrics.height + margin + n / metrics.width;
+    let mut shares = vec![0.0f64; wide * high];
+    for letter in &letters {
+        let width = (letter.columns[1] - letter.columns[0]) as usize;
+        let corner = [letter.columns[0] - left, top - letter.rows[1]].map(|n| n as usize + margin);
+        for (n, ink) in letter.ink.iter().enumerate() {
+            let place = &mut shares[(corner[1] + n / width) * wide + corner[0] + n % width];
             // Letters that overlap, such as f and i, ink a pixel once.
-            ink[y * wide + x] = ink[y * wide + x].max(f64::from(*share) / 255.0);
+            *place = place.max(f64::from(*ink) / 255.0);
         }
     }
-    Ink { corner: [left - margin as i32, top + margin as i32], size: [wide, high], shares: ink }
+    Ink { corner: [left - margin as i32, top + margin as i32], size: [wide, high], shares }
 }
 
 #[cfg(test)]
