@@ -264,8 +264,8 @@ impl<'de, T: KeyValue> Visitor<'de> for List<T> {
         match (T::table(), self.0.unit) {
             // `text::parse` knows a list of tables by these words.
             (Some(_), _) => f.write_str("a sequence"),
-            (None, "") => write!(f, "a list of {}", T::kind()),
-            (None, unit) => write!(f, "a list of {} [{unit}]", T::kind()),
+            (None, "") => write!(f, "a {}", Vec::<T>::kind()),
+            (None, unit) => write!(f, "a {} [{unit}]", Vec::<T>::kind()),
         }
     }
 
@@ -280,7 +280,9 @@ impl<'de, T: KeyValue> Visitor<'de> for List<T> {
 
 impl<T: KeyValue> KeyValue for Vec<T> {
     fn kind() -> String {
-        format!("list of {}", T::kind())
+        let each = T::kind();
+        let lists = each.starts_with(|c: char| c.is_ascii_digit());
+        format!("list of {}{each}", if lists { "lists of " } else { "" })
     }
 
     fn table() -> Option<TableShape> {
