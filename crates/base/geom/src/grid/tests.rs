@@ -120,3 +120,30 @@ fn no_point_and_one_point() {
     let one = [Vec3::new(1e9, 0.0, 0.0)];
     assert_eq!(Grid::new(&one, 1.0).within(&one, one[0], 0.0).count(), 1);
 }
+
+/// Blocks hold about as many evenly spread points as they are asked for, and together they cover all cells.
+#[test]
+fn blocks_hold_the_points_that_are_asked_for() {
+    let extents = [[1.0, 1.0, 1.0], [4.0, 1.0, 0.5], [10.0, 0.3, 0.3], [0.2, 6.0, 3.0]];
+    for (extent, points) in extents.into_iter().zip([200_000, 50_000, 1_000_000, 300_000]) {
+        for wanted in [500, 4096, 20_000] {
+            let low = Vec3::new(-3.0, 2.0, 7.0);
+            let high = low + Vec3::from(extent);
+            let lattice = lattice_over((low, high), 0.02, points, Some(wanted));
+            let product = |of: [i64; 3]| of.iter().map(|&n| n as f64).product::<f64>();
+            let share = product(lattice.block) / product(lattice.dims);
+            let held = share * points as f64;
+            assert!((0.4..2.5).contains(&(held / wanted as f64)), "{extent:?}, {wanted}: {held}");
+            for axis in 0..3 {
+                let beyond = lattice.dims[axis] as f64 * 0.02 - extent[axis];
+                assert!((-1e-9..0.0201).contains(&beyond), "{extent:?}: {beyond} m beyond the box");
+                let reach = lattice.block[axis] * lattice.blocks[axis];
+                assert!(reach >= lattice.dims[axis], "{extent:?}, {wanted}: axis {axis}");
+                assert!(
+                    reach - lattice.dims[axis] < lattice.block[axis],
+                    "{extent:?}, {wanted}: axis {axis}"
+                );
+            }
+        }
+    }
+}
