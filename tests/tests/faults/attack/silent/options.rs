@@ -17,6 +17,7 @@ const STEERS: &[&str] =
 pub const FREE: &[(&str, &str, &str)] = &[
     ("bluenoise-sample", "--distance", "on a flat cloud both distances are one"),
     ("bluenoise-sample", "--seed", "--method eliminate draws only among very many points"),
+    ("cloud-crop", "--columns", "--check may count the same"),
     ("cloud-crop", "--regions", "its shapes may hold what others keep anyway"),
     ("cloud-crop", "--scale", "--check may count the same"),
     ("cloud-crop", "--tolerance", "a check that finds nothing"),
