@@ -17,7 +17,7 @@ use record::StopCause;
 use run::{Checkpoint, Earlier, Outcome, Progress, RunError, Settings, run};
 use scene::{Input, Plan, Scene, SceneError, SceneSetupError};
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::io::{Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use watch::{Filling, Watch};
@@ -99,7 +99,7 @@ fn dem_run(args: Args, scene: &Source) -> anyhow::Result<Report> {
         None => None,
     };
     let earlier = earlier(&args, resumed.as_ref())?;
-    given_once(&args.inputs)?;
+    misplaced::given_once(&args.inputs)?;
     let mut inputs = Vec::new();
     for source in &args.inputs {
         inputs.push(Input::open(&source.to_string(), source.open()?)?);
@@ -165,39 +165,6 @@ fn no_run(output: &Output) -> anyhow::Result<()> {
     Err(cli::usage(format!(
         "-o {path} {what}, and --explain writes text: leave -o out, or choose another name, such as FILE.txt"
     )))
-}
-
-/// Refuses a file that is given twice, also under two names.
-fn given_once(sources: &[Source]) -> anyhow::Result<()> {
-    let files = || sources.iter().filter_map(Source::path).filter(|path| path.is_file());
-    for (n, later) in files().enumerate() {
-        for earlier in files().take(n) {
-            if same_file(earlier, later).unwrap_or(false) {
-                anyhow::bail!("{}: is given twice; leave one out", later.display());
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Whether two files are one, or hold the same; reads them only when their lengths are equal.
-fn same_file(a: &Path, b: &Path) -> io::Result<bool> {
-    if a.canonicalize()? == b.canonicalize()? {
-        return Ok(true);
-    }
-    let (mut a, mut b) = (BufReader::new(File::open(a)?), BufReader::new(File::open(b)?));
-    if a.get_ref().metadata()?.len() != b.get_ref().metadata()?.len() {
-        return Ok(false);
-    }
-    loop {
-        let (x, y) = (a.fill_buf()?, b.fill_buf()?);
-        let count = x.len().min(y.len());
-        if count == 0 || x[..count] != y[..count] {
-            return Ok(x.is_empty() && y.is_empty());
-        }
-        a.consume(count);
-        b.consume(count);
-    }
 }
 
 /// Adds the name of the output to a write error.

@@ -1,8 +1,8 @@
-//! Files in the wrong place of the command line: a second scene, a run as the scene, a cloud as walls.
+//! Files in the wrong place of the command line: a second scene, a run as the scene, a cloud as walls, a file twice.
 
 use cli::Source;
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 /// What an MCAP file begins with.
@@ -63,4 +63,40 @@ pub fn inputs(scene: &Source, inputs: &[Source]) -> anyhow::Result<()> {
         }
     }
     Ok(())
+}
+
+/// Refuses a file that is given twice, also under two names.
+///
+/// # Errors
+/// The first such file.
+pub fn given_once(sources: &[Source]) -> anyhow::Result<()> {
+    let files = || sources.iter().filter_map(Source::path).filter(|path| path.is_file());
+    for (n, later) in files().enumerate() {
+        for earlier in files().take(n) {
+            if same_file(earlier, later).unwrap_or(false) {
+                anyhow::bail!("{}: is given twice; leave one out", later.display());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether two files are one, or hold the same; reads them only when their lengths are equal.
+fn same_file(a: &Path, b: &Path) -> io::Result<bool> {
+    if a.canonicalize()? == b.canonicalize()? {
+        return Ok(true);
+    }
+    let (mut a, mut b) = (BufReader::new(File::open(a)?), BufReader::new(File::open(b)?));
+    if a.get_ref().metadata()?.len() != b.get_ref().metadata()?.len() {
+        return Ok(false);
+    }
+    loop {
+        let (x, y) = (a.fill_buf()?, b.fill_buf()?);
+        let count = x.len().min(y.len());
+        if count == 0 || x[..count] != y[..count] {
+            return Ok(x.is_empty() && y.is_empty());
+        }
+        a.consume(count);
+        b.consume(count);
+    }
 }
