@@ -36,7 +36,7 @@ impl Judge for Check<'_> {
             Range::Positive => positive(),
             Range::FromZero => each(0.0, dem::magnitudes(key.unit)[1]),
             Range::Within(low, high) => each(low, high),
-            Range::Between(low, high) => numbers.iter().try_for_each(|v| self.between(at, *v, [low, high])),
+            Range::Between(..) => numbers.iter().try_for_each(|v| self.between(at, key, *v)),
             Range::AtLeast(low) => each(low, f64::INFINITY),
             Range::AboveZeroUpTo(high) => positive().and_then(|()| each(0.0, high)),
             Range::Poisson => numbers.iter().try_for_each(|v| self.poisson(at, *v)),
@@ -104,16 +104,14 @@ impl Check<'_> {
     }
 
     /// A number between two, both left out.
-    fn between(&self, key: &str, value: f64, [low, high]: [f64; 2]) -> Result<()> {
+    fn between(&self, at: &str, key: &Key, value: f64) -> Result<()> {
+        let Range::Between(low, high, why) = key.range else { return Ok(()) };
         if low < value && value < high {
             return Ok(());
         }
-        let [low, high] = [low, high].map(geom::Shown);
-        let cure = format!(
-            "give a number between {low} and {high}, such as {}",
-            geom::Shown(0.5 * (low.0 + high.0))
-        );
-        Err(self.wrong(key, shown(value), &format!("is not between {low} and {high}"), &cure))
+        let range = format!("between {} and {}", geom::Shown(low), geom::Shown(high));
+        let why = format!("is not {range}{}{why}", if why.is_empty() { "" } else { ": " });
+        Err(self.wrong(at, shown(value), &why, &format!("give a number {range}, such as {}", key.default)))
     }
 
     /// Numbers that are finite, and no larger than a quantity of this unit may be.

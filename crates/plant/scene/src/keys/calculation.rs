@@ -86,7 +86,7 @@ table! {
     #[derive(Copy)]
     LocalDamping section {
         /// α: share of the unbalanced force that acts against the motion; 0.7 is usual.
-        factor: f64 = default(0.7), "", Between(0.0, 1.0), "0.5";
+        factor: f64 = default(0.7), "", Between(0.0, 1.0, ""), "0.5";
     }
 }
 
@@ -146,8 +146,8 @@ table! {
         speed: f64 = required, "m/s", Positive, "0.01";
         /// How long the speed must have stayed below.
         time: f64 = default(0.02), "s", Positive, "\"50 ms\"";
-        /// Largest acceleration of a particle that falls asleep, as a share of g; from 1 on, a grain in free fall would count as one at rest.
-        wake: f64 = default(0.1), "", Between(0.0, 1.0), "0.2";
+        /// Largest acceleration of a particle that falls asleep, as a share of g.
+        wake: f64 = default(0.1), "", Between(0.0, 1.0, "from 1 on, a grain in free fall counts as one at rest"), "0.2";
     }
 }
 

@@ -22,8 +22,8 @@ pub enum Range {
     FromZero,
     /// From the first to the second, both included.
     Within(f64, f64),
-    /// Between the two, both left out.
-    Between(f64, f64),
+    /// Between the two, both left out, and why; "" where that needs no words.
+    Between(f64, f64, &'static str),
     /// This or more.
     AtLeast(f64),
     /// Above 0, up to this.
@@ -41,7 +41,7 @@ impl fmt::Display for Range {
             Range::Positive | Range::Pair => f.write_str("above 0"),
             Range::FromZero => f.write_str("from 0"),
             Range::Within(low, high) => write!(f, "{} to {}", geom::Shown(*low), geom::Shown(*high)),
-            Range::Between(low, high) => {
+            Range::Between(low, high, _) => {
                 write!(f, "between {} and {}", geom::Shown(*low), geom::Shown(*high))
             }
             Range::AtLeast(low) => write!(f, "{} or more", geom::Shown(*low)),
