@@ -126,7 +126,13 @@ impl From<&Key> for Row {
             kind: if key.unit == "file" { "file".to_owned() } else { (key.kind)() },
             unit: if key.unit == "file" { "" } else { key.unit },
             range: key.range.to_string(),
-            default: key.default.replace(".0", ""),
+            // Rust wants 1.0 where people write 1.
+            default: key
+                .default
+                .strip_suffix(".0")
+                .unwrap_or(key.default)
+                .replace(".0,", ",")
+                .replace(".0]", "]"),
             doc: key.doc.trim().trim_end_matches('.').to_owned(),
             example: key.example.to_owned(),
             table: (key.table)(),

@@ -48,7 +48,6 @@ impl KeyUnit {
             "J/m²" => "50 mJ/m²",
             "J/m³" => "20 kJ/m³",
             "kg/m³" => "2.5 g/cm³",
-            "m⁵" => "2 cm⁵",
             _ => "40 %",
         };
         KeyUnit { unit, such }

@@ -259,7 +259,7 @@ mod tests {
         let expected = inserted(0.8, "mass = 0.2").unwrap().expected(10.0).all;
         assert!((expected / found.len() as f64 - 1.0).abs() < 0.15, "{expected} of {}", found.len());
         for (end, part) in
-            [("count = 0", "no particle"), ("mass = -1", "above 0"), ("mass = 1\ncount = 1", "only one")]
+            [("count = 0", "1 or more"), ("mass = -1", "above 0"), ("mass = 1\ncount = 1", "only one")]
         {
             let message = inserted(0.8, end).unwrap_err().to_string();
             assert!(message.contains(part), "{end}: {message}");
