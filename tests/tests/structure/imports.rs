@@ -150,7 +150,7 @@ struct Named {
 fn code_of(text: &str) -> String {
     let text = text.split("#[cfg(test)]").next().unwrap_or_default();
     let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default());
-    // Who may use an item is no use of it.
+    // The visibility of an item is not a use.
     let text = lines.collect::<Vec<_>>().join("\n").replace("pub(in crate::", "pub(in ");
     // Every second piece between quotes is a text; escaped quotes do not name paths.
     text.split('"').step_by(2).collect::<Vec<_>>().join("\"\"")
