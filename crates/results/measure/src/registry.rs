@@ -1,6 +1,6 @@
 //! All measures, once: what programs, options and documents tell of them is read from here.
 //!
-//! A measure is its file, which implements [`Measure`](crate::definition::Measure), and its line in [`ALL`]. From these come the options of `dem-measure`, with their
+//! A measure is its file, which implements [`Measure`], and its line in [`ALL`]. From these come the options of `dem-measure`, with their
 //! help and with the refusal of options that a measure does not take, and the names that `cost-curve` knows. The table of measures in the
 //! documents is compared with them.
 
