@@ -36,7 +36,10 @@ impl Judge for Check<'_> {
             Range::Positive => positive(),
             Range::FromZero => each(0.0, dem::magnitudes(key.unit)[1]),
             Range::Within(low, high) => each(low, high),
-            Range::Between(..) => numbers.iter().try_for_each(|v| self.between(at, key, *v)),
+            Range::Between(low, high, why) => {
+                let outside = numbers.iter().find(|v| !(low < **v && **v < high));
+                outside.map_or(Ok(()), |v| Err(self.not_between(at, *v, [low, high], (why, key.default))))
+            }
             Range::AtLeast(low) => each(low, f64::INFINITY),
             Range::AboveZeroUpTo(high) => positive().and_then(|()| each(0.0, high)),
             Range::Poisson => numbers.iter().try_for_each(|v| self.poisson(at, *v)),
@@ -103,15 +106,11 @@ impl Check<'_> {
         Err(self.wrong(key, format!("{} {unit}", shown(value)).trim_end(), "is outside the range", &cure))
     }
 
-    /// A number between two, both left out.
-    fn between(&self, at: &str, key: &Key, value: f64) -> Result<()> {
-        let Range::Between(low, high, why) = key.range else { return Ok(()) };
-        if low < value && value < high {
-            return Ok(());
-        }
-        let range = format!("between {} and {}", geom::Shown(low), geom::Shown(high));
-        let why = format!("is not {range}{}{why}", if why.is_empty() { "" } else { ": " });
-        Err(self.wrong(at, shown(value), &why, &format!("give a number {range}, such as {}", key.default)))
+    /// The error for a number that is not between two, with the reason, and one that is.
+    fn not_between(&self, at: &str, value: f64, range: [f64; 2], (why, such): (&str, &str)) -> SceneError {
+        let [low, high] = range.map(geom::Shown);
+        let why = format!("is not between {low} and {high}{}{why}", if why.is_empty() { "" } else { ": " });
+        self.wrong(at, shown(value), &why, &format!("give a number between {low} and {high}, such as {such}"))
     }
 
     /// Numbers that are finite, and no larger than a quantity of this unit may be.

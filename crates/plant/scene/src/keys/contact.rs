@@ -1,7 +1,7 @@
 //! `[[contact]]`, whose keys are those of the engine's effects.
 
 use super::table::{OneOf, REQUIRED, Row, TableShape};
-use super::value::{In, KeyUnit, KeyValue, begins_as_number, quoted, unknown_word};
+use super::value::{In, KeyUnit, KeyValue, Word, begins_as_number, quoted};
 use dem::effects::{DESCRIPTIONS, Description, Key, NORMAL_DAMPING, RESTITUTION, keys, models};
 use dem::setup::ContactLaw;
 use serde::de::{self, DeserializeSeed, Deserializer, Error, MapAccess, Unexpected, Visitor};
@@ -70,13 +70,14 @@ fn rows() -> Vec<Row> {
         text(key, &quoted(values.iter().copied()), &default, doc, &example)
     };
     let number = |key: &Key| {
-        let (kind, of) = match table_keys(key.name).map(|(_, short)| format!("`{short}`")).collect::<Vec<_>>()
-        {
-            none if none.is_empty() => ("number".to_owned(), key.name.contains('.')),
-            short => (format!("number or table of {}", short.join(", ")), false),
+        let table: Vec<String> = table_keys(key.name).map(|(_, short)| format!("`{short}`")).collect();
+        let kind = if table.is_empty() {
+            "number".to_owned()
+        } else {
+            format!("number or table of {}", table.join(", "))
         };
         // A table that stands instead of a number has all of its keys.
-        let default = if of { REQUIRED.to_owned() } else { required_with(key.name) };
+        let default = if key.name.contains('.') { REQUIRED.to_owned() } else { required_with(key.name) };
         Row {
             unit: key.unit,
             range: key.range.to_string(),
@@ -141,7 +142,7 @@ impl<'de> Visitor<'de> for ContactVisitor {
             } else if key == CHARACTERISTIC_VELOCITY {
                 characteristic_velocity = Some(map.next_value_seed(number("m/s"))?);
             } else if let Some((key, values)) = models().into_iter().find(|m| m.0 == key) {
-                law.choose(key, map.next_value_seed(Named(values))?);
+                law.choose(key, map.next_value_seed(Word(values))?);
             } else {
                 map.next_value_seed(Numbers { key, law: &mut law })?;
             }
@@ -151,30 +152,6 @@ impl<'de> Visitor<'de> for ContactVisitor {
             return Err(Error::missing_field(RESTITUTION.name));
         }
         Ok(Contact { between, law, characteristic_velocity })
-    }
-}
-
-/// A model that is one of these.
-struct Named(Vec<&'static str>);
-
-impl<'de> DeserializeSeed<'de> for Named {
-    type Value = &'static str;
-
-    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<&'static str, D::Error> {
-        from.deserialize_any(self)
-    }
-}
-
-impl Visitor<'_> for Named {
-    type Value = &'static str;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "one of {}", quoted(self.0.iter().copied()))
-    }
-
-    fn visit_str<E: Error>(self, name: &str) -> Result<&'static str, E> {
-        let known = self.0.iter().find(|k| **k == name).copied();
-        known.ok_or_else(|| unknown_word(name, self.0.iter().copied()))
     }
 }
 

@@ -32,32 +32,44 @@ fn in_metres(text: &str) -> String {
     name + &numbers.split(',').map(part).collect::<Vec<_>>().join(",")
 }
 
-/// A plane, as the command line has it: `px,py,pz,nx,ny,nz`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlaneText(pub String);
+/// Texts as the command line has them, which a visitor reads.
+macro_rules! texts {
+    ($($(#[$about:meta])* $name:ident $visitor:ident $kind:literal;)*) => { $(
+        $(#[$about])*
+        #[derive(Debug, Clone, PartialEq)]
+        pub struct $name(pub String);
 
-impl Deref for PlaneText {
-    type Target = str;
+        impl Deref for $name {
+            type Target = str;
 
-    fn deref(&self) -> &str {
-        &self.0
-    }
+            fn deref(&self) -> &str {
+                &self.0
+            }
+        }
+
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str(self)
+            }
+        }
+
+        impl KeyValue for $name {
+            fn kind() -> String {
+                $kind.to_owned()
+            }
+
+            fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<$name, D::Error> {
+                from.deserialize_any($visitor).map($name)
+            }
+        }
+    )* };
 }
 
-impl fmt::Display for PlaneText {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(self)
-    }
-}
-
-impl KeyValue for PlaneText {
-    fn kind() -> String {
-        "text or 6 numbers".to_owned()
-    }
-
-    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<PlaneText, D::Error> {
-        from.deserialize_any(PlaneVisitor).map(PlaneText)
-    }
+texts! {
+    /// A plane: `px,py,pz,nx,ny,nz`.
+    PlaneText PlaneVisitor "text or 6 numbers";
+    /// A shape: `box:x0,y0,z0,x1,y1,z1`.
+    ShapeText ShapeVisitor "text or list or table";
 }
 
 struct PlaneVisitor;
@@ -79,34 +91,6 @@ impl<'de> Visitor<'de> for PlaneVisitor {
             6 => Ok(joined(&numbers)),
             n => Err(A::Error::invalid_length(n, &self)),
         }
-    }
-}
-
-/// A shape, as the command line has it: `box:x0,y0,z0,x1,y1,z1`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ShapeText(pub String);
-
-impl Deref for ShapeText {
-    type Target = str;
-
-    fn deref(&self) -> &str {
-        &self.0
-    }
-}
-
-impl fmt::Display for ShapeText {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(self)
-    }
-}
-
-impl KeyValue for ShapeText {
-    fn kind() -> String {
-        "text or list or table".to_owned()
-    }
-
-    fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<ShapeText, D::Error> {
-        from.deserialize_any(ShapeVisitor).map(ShapeText)
     }
 }
 

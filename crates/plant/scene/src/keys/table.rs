@@ -325,15 +325,7 @@ macro_rules! words {
             }
         }
 
-        impl $crate::keys::value::KeyValue for $name {
-            fn kind() -> String {
-                $crate::keys::value::quoted($name::ALL.iter().map(|word| word.name()))
-            }
-
-            fn read<'de, D: serde::Deserializer<'de>>(_: $crate::keys::value::KeyUnit, from: D) -> std::result::Result<$name, D::Error> {
-                $crate::keys::value::word(from, $name::ALL, $name::name)
-            }
-        }
+        $crate::keys::value::word_values! { $name }
     };
 }
 

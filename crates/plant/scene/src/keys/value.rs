@@ -129,37 +129,57 @@ pub(super) fn quoted<'a>(words: impl Iterator<Item = &'a str>) -> String {
 }
 
 /// Reads a word that is one of these.
-pub(super) fn word<'de, D: Deserializer<'de>, T: Copy>(
-    from: D,
-    all: &'static [T],
-    name: fn(T) -> &'static str,
-) -> Result<T, D::Error> {
-    from.deserialize_any(Word { all, name })
+pub(super) struct Word(pub Vec<&'static str>);
+
+impl<'de> DeserializeSeed<'de> for Word {
+    type Value = &'static str;
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<&'static str, D::Error> {
+        from.deserialize_any(self)
+    }
 }
 
-struct Word<T: 'static> {
-    all: &'static [T],
-    name: fn(T) -> &'static str,
-}
-
-impl<T: Copy> Visitor<'_> for Word<T> {
-    type Value = T;
+impl Visitor<'_> for Word {
+    type Value = &'static str;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "one of {}", quoted(self.all.iter().map(|word| (self.name)(*word))))
+        write!(f, "one of {}", quoted(self.0.iter().copied()))
     }
 
-    fn visit_str<E: Error>(self, text: &str) -> Result<T, E> {
-        let known = self.all.iter().find(|word| (self.name)(**word) == text).copied();
-        known.ok_or_else(|| unknown_word(text, self.all.iter().map(|word| (self.name)(*word))))
+    fn visit_str<E: Error>(self, text: &str) -> Result<&'static str, E> {
+        let known = self.0.iter().find(|word| **word == text).copied();
+        known.ok_or_else(|| {
+            // As serde writes it: `text::parse` reads it again.
+            let known = self.0.iter().map(|k| format!("`{k}`")).collect::<Vec<_>>().join(", ");
+            E::custom(format_args!("unknown variant `{text}`, expected one of {known}"))
+        })
     }
 }
 
-/// The error for a word that is none of those known, as serde writes it.
-pub(super) fn unknown_word<'a, E: Error>(word: &str, known: impl Iterator<Item = &'a str>) -> E {
-    let known = known.map(|k| format!("`{k}`")).collect::<Vec<_>>().join(", ");
-    E::custom(format_args!("unknown variant `{word}`, expected one of {known}"))
+/// Enums whose variants are words of a scene: they have `ALL` and `name`.
+macro_rules! word_values {
+    ($($type:ty)*) => { $(
+        impl $crate::keys::value::KeyValue for $type {
+            fn kind() -> String {
+                $crate::keys::value::quoted(<$type>::ALL.iter().map(|word| word.name()))
+            }
+
+            fn read<'de, D: serde::Deserializer<'de>>(
+                _: $crate::keys::value::KeyUnit,
+                from: D,
+            ) -> std::result::Result<$type, D::Error> {
+                let names = <$type>::ALL.iter().map(|word| word.name()).collect();
+                let text = serde::de::DeserializeSeed::deserialize($crate::keys::value::Word(names), from)?;
+                let word = <$type>::ALL.iter().find(|word| word.name() == text).copied();
+                word.ok_or_else(|| serde::de::Error::custom(text))
+            }
+        }
+    )* };
 }
+
+pub(super) use word_values;
+
+word_values! { ZoneMotion ZoneTest }
 
 /// Types that serde reads, and what they are called.
 macro_rules! plain_values {
@@ -181,23 +201,6 @@ plain_values! {
     toml::Value, "list or text or table";
     [String; 2], "2 names";
 }
-
-/// Words of the engine.
-macro_rules! engine_words {
-    ($($type:ty)*) => { $(
-        impl KeyValue for $type {
-            fn kind() -> String {
-                quoted(<$type>::ALL.iter().map(|word| word.name()))
-            }
-
-            fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<$type, D::Error> {
-                word(from, &<$type>::ALL, <$type>::name)
-            }
-        }
-    )* };
-}
-
-engine_words! { ZoneMotion ZoneTest }
 
 /// Whole numbers.
 macro_rules! whole_numbers {

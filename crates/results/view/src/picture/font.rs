@@ -11,6 +11,16 @@ static FONT: LazyLock<Option<Font>> = LazyLock::new(|| {
 /// Height of capitals over that of the typeface [–].
 const CAPITAL: f32 = 1493.0 / 2048.0;
 
+/// Size of letters whose capitals are so high [pixel].
+fn size(height: f64) -> f32 {
+    height as f32 / CAPITAL
+}
+
+/// Rows above and below the line that letters stand on, in which all of them are [pixel].
+pub fn reach(height: f64) -> [f64; 2] {
+    [1.2, 0.5].map(|ems| ems * f64::from(size(height)))
+}
+
 /// The ink of a line of text.
 pub struct Ink {
     /// Its first column right of where the text begins, and its first row above the line that the text stands on [pixel].
@@ -24,7 +34,7 @@ pub struct Ink {
 /// Width of a line of text whose capitals are so high [pixel].
 pub fn width(text: &str, height: f64) -> f64 {
     let Some(font) = FONT.as_ref() else { return 0.0 };
-    let size = height as f32 / CAPITAL;
+    let size = size(height);
     text.chars().map(|letter| f64::from(font.metrics(letter, size).advance_width)).sum()
 }
 
@@ -40,7 +50,7 @@ struct Letter {
 
 /// A line of text whose capitals are so high [pixel], with a margin of empty pixels.
 pub fn ink(text: &str, height: f64, margin: usize) -> Ink {
-    let size = height as f32 / CAPITAL;
+    let size = size(height);
     let mut at = 0.0;
     let mut letters: Vec<Letter> = Vec::new();
     for letter in text.chars() {
@@ -83,6 +93,8 @@ mod tests {
             assert!(font.lookup_glyph_index(letter) != 0, "{letter}");
             let ink = ink(&letter.to_string(), 20.0, 2);
             assert!(ink.shares.iter().any(|share| *share > 0.5), "{letter}");
+            let rows = [ink.corner[1], ink.size[1] as i32 - ink.corner[1]].map(|n| f64::from(n - 2));
+            assert!((0..2).all(|k| rows[k] <= reach(20.0)[k]), "{letter}: {rows:?}");
         }
     }
 

@@ -47,12 +47,17 @@ impl Pen<'_> {
             Anchor::Right => font::width(text, height),
         };
         let rim = 0.15 * height + 0.5;
+        let ([first, end], [above, below]) = (self.canvas.rows(), font::reach(height));
+        if at[1] - above - rim > end as f64 || at[1] + below + rim < first as f64 - 1.0 {
+            return;
+        }
         let ink = font::ink(text, height, rim.ceil() as usize);
         let [left, top] =
             [(at[0] - shift).round() as i32 + ink.corner[0], at[1].round() as i32 - ink.corner[1]];
         // A rim of paper keeps text readable on grains.
         let letters = std::mem::replace(&mut self.colour, self.paper);
-        self.print([left, top], ink.size, &widened(&ink, rim));
+        let seen = [first, end].map(|row| row as i32 - top);
+        self.print([left, top], ink.size, &widened(&ink, rim, seen));
         self.colour = letters;
         self.print([left, top], ink.size, &ink.shares);
     }
@@ -127,21 +132,32 @@ impl Pen<'_> {
     }
 }
 
-/// The ink with all that is nearer to it than a distance [pixel].
-fn widened(ink: &font::Ink, distance: f64) -> Vec<f64> {
+/// The ink with all that is nearer to it than a distance [pixel], in the rows from one to before another.
+fn widened(ink: &font::Ink, distance: f64, [first, end]: [i32; 2]) -> Vec<f64> {
     let [wide, high] = ink.size.map(|n| n as i32);
+    let [first, end] = [first, end].map(|row| row.clamp(0, high));
     let reach = distance.ceil() as i32;
     let disc: Vec<(i32, i32, f64)> = (-reach..=reach)
         .flat_map(|dy| (-reach..=reach).map(move |dx| (dx, dy)))
         .map(|(dx, dy)| (dx, dy, (distance + 0.5 - f64::from(dx).hypot(f64::from(dy))).clamp(0.0, 1.0)))
         .filter(|(.., share)| *share > 0.0)
         .collect();
-    let mut all = vec![0.0f64; ink.shares.len()];
-    for (n, share) in ink.shares.iter().enumerate().filter(|(_, share)| **share > 0.0) {
+    // Where all of four neighbours are ink, one of them is nearer to any other pixel.
+    let row = wide as usize;
+    let beside = |n: usize| [n.wrapping_sub(1), n + 1, n.wrapping_sub(row), n + row];
+    let whole = |n: usize| ink.shares.get(n).is_some_and(|share| *share == 1.0);
+    let inside = |n: usize| whole(n) && beside(n).into_iter().all(whole);
+    let mut all = ink.shares.clone();
+    let rows = (first - reach).max(0)..(end + reach).min(high);
+    for n in (rows.start * wide) as usize..(rows.end * wide).max(rows.start * wide) as usize {
+        let share = ink.shares[n];
+        if share == 0.0 || inside(n) {
+            continue;
+        }
         let [x, y] = [n as i32 % wide, n as i32 / wide];
         for (dx, dy, near) in &disc {
             let [x, y] = [x + dx, y + dy];
-            if (0..wide).contains(&x) && (0..high).contains(&y) {
+            if (0..wide).contains(&x) && (first..end).contains(&y) {
                 let place = &mut all[(y * wide + x) as usize];
                 *place = place.max(share * near);
             }
