@@ -9,7 +9,7 @@ if [ ! -x "$peers/bin/python" ]; then
     python3 -m venv "$peers"
     "$peers/bin/pip" install --quiet --disable-pip-version-check -r pipelines/differential/peers.txt
 fi
-cargo build -p cloud --example read_files --locked --quiet
+cargo build -p grainpipe-cloud --example read_files --locked --quiet
 out=pipelines/out/differential
 rm -rf "$out"
 mkdir -p "$out"

@@ -56,7 +56,17 @@ pub const SINTER: Head = Head {
     contact: "restitution = 0.5\nsliding_friction = 0.5",
 };
 
-/// Grains of it that fall through the plane z = 0.
+/// Glass beads, soft enough for few steps.
+pub const GLASS: Head = Head {
+    time: "until = 0.3",
+    output: "every = 0.02",
+    material: "glass",
+    density: 2500.0,
+    young: 1e6,
+    contact: "law = \"hertz\"\nrestitution = 0.6\nsliding_friction = 0.4",
+};
+
+/// Grains of [`SINTER`] that fall through the plane z = 0.
 pub const ABOVE: &str = "[[fill]]
 material = \"sinter\"
 shape = \"cylinder:0,0,0.02,0,0,0.12,0.04\"

@@ -2,50 +2,35 @@
 
 use crate::{lmp, refusal};
 use grainpipe_tests::engines::frames;
-use grainpipe_tests::scenes::folder;
+use grainpipe_tests::scenes::{GLASS, Head, folder};
 use grainpipe_tests::tools::{succeed, tool};
 use std::fs;
 use std::process::Command;
 use tempfile::TempDir;
 
 /// Grains that fall on a floor.
-pub const SCENE: &str = "gravity = [0, 0, -9.81]
-[time]
-until = 0.02
-[output]
-every = 0.002
-[[material]]
-name = \"glass\"
-density = 2500
-young = 1e6
-poisson = 0.25
-[[contact]]
-between = [\"*\", \"*\"]
-law = \"hooke\"
-stiffness = 1e3
-restitution = 0.6
-sliding_friction = 0.4
-[[fill]]
-material = \"glass\"
-shape = \"box:0,0,0,0.03,0.03,0.03\"
-diameter = [0.004, 0.006]
-count = 40
-[[wall]]
-name = \"floor\"
-plane = \"0,0,0,0,0,1\"
-material = \"glass\"
-";
+fn text() -> String {
+    let head = Head {
+        time: "until = 0.02",
+        output: "every = 0.002",
+        contact: "law = \"hooke\"\nstiffness = 1e3\nrestitution = 0.6\nsliding_friction = 0.4",
+        ..GLASS
+    };
+    let fill = "shape = \"box:0,0,0,0.03,0.03,0.03\"\ndiameter = [0.004, 0.006]\ncount = 40";
+    let floor = "name = \"floor\"\nplane = \"0,0,0,0,0,1\"\nmaterial = \"glass\"";
+    format!("{}[[fill]]\nmaterial = \"glass\"\n{fill}\n[[wall]]\n{floor}\n", head.toml())
+}
 
 /// A folder with the scene.
 pub fn scene() -> TempDir {
-    folder(&[("s.toml", SCENE)])
+    folder(&[("s.toml", text())])
 }
 
 /// A line of a script that ends in & swallows the next one, also in a comment: names are escaped there.
 #[test]
 fn names_stay_in_their_comments() {
-    let text = SCENE.replace("\"glass\"", "'glass &'").replace("\"floor\"", "'5\" \"\"\" $x &'");
-    let folder = folder(&[("s.toml", text.as_str()), ("plain & simple.toml", SCENE)]);
+    let harmful = text().replace("\"glass\"", "'glass &'").replace("\"floor\"", "'5\" \"\"\" $x &'");
+    let folder = folder(&[("s.toml", harmful), ("plain & simple.toml", text())]);
     for scene in ["s.toml", "plain & simple.toml"] {
         succeed(folder.path(), "dem-lammps", &[scene, "--write-deck", "deck"]);
         let input = fs::read_to_string(folder.path().join("deck/run.in")).unwrap();

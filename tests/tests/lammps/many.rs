@@ -2,25 +2,8 @@
 
 use crate::lmp;
 use grainpipe_tests::engines::{both, column};
-use grainpipe_tests::scenes::folder;
+use grainpipe_tests::scenes::{GLASS, folder};
 use stream::Table;
-
-const SCENE: &str = "gravity = [0, 0, -9.81]
-[time]
-until = 0.3
-[output]
-every = 0.02
-[[material]]
-name = \"glass\"
-density = 2500
-young = 1e6
-poisson = 0.25
-[[contact]]
-between = [\"*\", \"*\"]
-law = \"hertz\"
-restitution = 0.6
-sliding_friction = 0.4
-";
 
 fn mean(frame: &Table, name: &str) -> f64 {
     let all = column(frame, name);
@@ -36,7 +19,7 @@ fn a_pile_settles_to_the_same_height() {
     let pile = "[domain]\nperiodic = [\"x\", \"y\"]\nlow = [0, 0, 0]\nhigh = [0.04, 0.04, 1]\n[[fill]]\nmaterial = \"glass\"\n\
                 shape = \"box:0,0,0,0.04,0.04,0.1\"\ndiameter = [0.004, 0.006]\ncount = 600\n[[wall]]\nname = \"floor\"\n\
                 plane = \"0,0,0,0,0,1\"\nmaterial = \"glass\"\n";
-    let folder = folder(&[("s.toml", [SCENE, pile].concat())]);
+    let folder = folder(&[("s.toml", GLASS.toml() + pile)]);
     let [ours, theirs] = both(folder.path(), &[]);
     let heights = |frames: &[Table]| frames.iter().map(|f| mean(f, "z")).collect::<Vec<_>>();
     let (a, b) = (heights(&ours), heights(&theirs));
@@ -54,7 +37,7 @@ fn grains_come_in_where_and_when_they_do_in_dem_run() {
     }
     let insert = "[[insert]]\nmaterial = \"glass\"\nshape = \"box:-0.03,-0.03,0.5,0.03,0.03,0.52\"\n\
                   diameter = [0.004, 0.006]\nvelocity = [0, 0, -0.5]\nrate_count = 2000\nuntil = 0.25\n";
-    let folder = folder(&[("s.toml", [SCENE, insert].concat())]);
+    let folder = folder(&[("s.toml", GLASS.toml() + insert)]);
     let [ours, theirs] = both(folder.path(), &[]);
     for (a, b) in ours.iter().zip(&theirs) {
         assert_eq!(column(a, "id"), column(b, "id"));

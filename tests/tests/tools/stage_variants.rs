@@ -1,27 +1,17 @@
 //! Variants of a downstream stage, from one record: a line of a shell for each, in a folder that several processes share.
 
-use grainpipe_tests::scenes::folder;
+use grainpipe_tests::scenes::{GLASS, Head, folder};
 use grainpipe_tests::tools::{succeed, tool};
 use std::fs;
 use std::process::{Child, Command};
 
 /// What both stages have.
-const BOTH: &str = "gravity = [0, 0, -9.81]
-[time]
-until = 0.12
-[output]
-every = 0.01
-[[material]]
-name = \"glass\"
-density = 2500
-young = 1e6
-poisson = 0.25
-[[contact]]
-between = [\"*\", \"*\"]
-law = \"hooke\"
-stiffness = 1e3
-restitution = 0.3
-";
+const BOTH: Head = Head {
+    time: "until = 0.12",
+    output: "every = 0.01",
+    contact: "law = \"hooke\"\nstiffness = 1e3\nrestitution = 0.3",
+    ..GLASS
+};
 
 /// Nine grains that fall through a plane onto a floor.
 #[test]
@@ -31,8 +21,8 @@ fn variants_of_a_stage_are_listed_and_made_once() {
     let up = "[[particles]]\nsource = \"grains.csv\"\nmaterial = \"glass\"\n[[outlet]]\nplane = \"0,0,0.02,0,0,-1\"\nmotion = \"ballistic\"\n";
     let down = "[[inlet]]\nplane = \"0,0,0.02,0,0,-1\"\n[[wall]]\nname = \"floor\"\nplane = \"0,0,0,0,0,1\"\nmaterial = \"glass\"\n";
     let folder = folder(&[
-        ("up.toml", BOTH.to_owned() + up),
-        ("down.toml", BOTH.to_owned() + down),
+        ("up.toml", BOTH.toml() + up),
+        ("down.toml", BOTH.toml() + down),
         ("grains.csv", format!("x,y,z,radius,vz\n{rows}")),
     ]);
     let path = folder.path();

@@ -1,4 +1,4 @@
-//! A heap of 500 grains poured onto a plate, from Rust: `cargo run --release -p dem --example heap`.
+//! A heap of 500 grains poured onto a plate, from Rust: `cargo run --release -p grainpipe-dem --example heap`.
 
 use dem::setup::{ContactLaw, Material, Particle, Wall, WallShape};
 use dem::{Setup, Simulation};

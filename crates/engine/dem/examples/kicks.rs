@@ -1,5 +1,5 @@
 //! A second evaluation of forces in kicks in which a contact begins or ends: what it gains and what it costs, in one impact and in a row of
-//! grains that the first one hits. Printed for docs/theory/time-step.md: `cargo run --release -p dem --example kicks`.
+//! grains that the first one hits. Printed for docs/theory/time-step.md: `cargo run --release -p grainpipe-dem --example kicks`.
 //!
 //! Grains have the mass 1 and the stiffness 1, so that ω² = 2 of a pair.
 

@@ -1,4 +1,4 @@
-//! Time of the bench pile: `cargo run --release -p dem --example pile -- PILE.csv STEPS [THREADS [SKIN]]`.
+//! Time of the bench pile: `cargo run --release -p grainpipe-dem --example pile -- PILE.csv STEPS [THREADS [SKIN]]`.
 //!
 //! Spheres settled on a floor, periodic in x and y; Hooke, dashpot, sliding friction with memory; Δt = 10⁻⁵ s; one skin [m] for all, or
 //! the engine's own choice.

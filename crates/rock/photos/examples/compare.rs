@@ -1,7 +1,7 @@
 //! How far meshes are from the stone that `render` made photographs of: a row of a table for each.
 //!
 //! ```sh
-//! cargo run --release -p photos --example compare -- STONE.ply MESH.ply…
+//! cargo run --release -p grainpipe-photos --example compare -- STONE.ply MESH.ply…
 //! ```
 //!
 //! Prints the error of the volume, and the mean distance between both surfaces, seen from points of each, in percent of the longest side of the

@@ -1,7 +1,7 @@
 //! Photographs of a mesh on a turntable, with their true masks: a trial of `stone-mask` and `stone-hull` whose answer is known.
 //!
 //! ```sh
-//! cargo run --release -p photos --example render -- STONE.ply DIR [WIDTH [STEP_DEG]]
+//! cargo run --release -p grainpipe-photos --example render -- STONE.ply DIR [WIDTH [STEP_DEG]]
 //! ```
 //!
 //! Four turns: tilts of 0° and 35°, the stone as it is and turned over. Writes `DIR/photographs/*.jpg`, `DIR/truth/*.png` and `DIR/turntable.toml`.

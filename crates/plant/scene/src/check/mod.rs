@@ -31,7 +31,7 @@ impl Judge for Check<'_> {
             |low: f64, high: f64| numbers.iter().try_for_each(|v| self.within(at, *v, low, high, key.unit));
         let positive = || numbers.iter().try_for_each(|v| self.positive(at, *v, key.unit));
         match key.range {
-            Range::Any | Range::Name => Ok(()),
+            Range::Any | Range::File | Range::Name => Ok(()),
             Range::Finite => self.finite(at, numbers, key.unit),
             Range::Positive => positive(),
             Range::FromZero => each(0.0, dem::magnitudes(key.unit)[1]),

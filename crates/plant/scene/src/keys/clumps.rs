@@ -16,7 +16,7 @@ table! {
         /// With `spheres`, instead of `mass`: the true body, in the frame of the spheres and before `scale`, as `stone-clump` writes it.
         moments: Option<ClumpMoments> = absent("–"), "", Any, "";
         /// Closed surface of triangles (PLY, STL, OBJ, text); this or `spheres`.
-        mesh: Option<String> = absent("–"), "file", Any, "\"stone.ply\"";
+        mesh: Option<String> = absent("–"), "", File, "\"stone.ply\"";
         /// With `mesh`: radius of the sphere on each vertex, before `scale`.
         vertex_radius: Option<f64> = absent("–"), "m", Positive, "0.001";
         /// With `mesh`: spheres sit on the vertices of the mesh thinned to so many faces.

@@ -16,7 +16,7 @@ table! {
         /// Highest corner.
         high: Option<[f64; 3]> = absent("required if periodic"), "m", Finite, "[0.1, 0.1, 0.1]";
         /// A run; its last domain is used, instead of `low` and `high`.
-        source: Option<String> = absent("–"), "file", Any, "\"prepare.mcap\"";
+        source: Option<String> = absent("–"), "", File, "\"prepare.mcap\"";
         /// What each periodic axis follows: see below.
         strain: Strains = absent("–"), "", Any, "";
         /// Particles that have fallen past all walls: keep them, or take them out by an outlet one diameter below the lowest place that any wall
@@ -80,7 +80,7 @@ table! {
     /// A table of strain or stress over time.
     StrainPath inline {
         /// A CSV file with the columns `t` [s], and `strain` or `stress` [Pa].
-        source: String = required, "file", Any, "\"stress.csv\"";
+        source: String = required, "", File, "\"stress.csv\"";
     }
 }
 

@@ -37,7 +37,7 @@ table! {
     /// `[[particles]]`
     Particles section {
         /// CSV, PLY, or a run (its last frame).
-        source: String = required, "file", Any, "\"grains.csv\"";
+        source: String = required, "", File, "\"grains.csv\"";
         /// Material of all grains; this or `materials`, unless the file is a run.
         material: Option<String> = absent("that of the run"), "", Any, "\"glass\"";
         /// Each row is a clump of this name.

@@ -29,7 +29,7 @@ table! {
     /// A table of force or stress over time.
     ServoPath inline {
         /// A CSV file with the columns `t` [s], and `force` [N] or `stress` [Pa].
-        source: String = required, "file", Any, "\"load.csv\"";
+        source: String = required, "", File, "\"load.csv\"";
     }
 }
 

@@ -12,6 +12,8 @@ use std::marker::PhantomData;
 pub enum Range {
     /// What its type takes; other keys may say more.
     Any,
+    /// The name of a file.
+    File,
     /// Finite, and no larger than a quantity of its unit may be.
     Finite,
     /// Above 0, and of a size that its unit allows ([`dem::magnitudes`]).
@@ -37,7 +39,7 @@ pub enum Range {
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Range::Any | Range::Finite => Ok(()),
+            Range::Any | Range::File | Range::Finite => Ok(()),
             Range::Positive | Range::Pair => f.write_str("above 0"),
             Range::FromZero => f.write_str("from 0"),
             Range::Within(low, high) => write!(f, "{} to {}", geom::Shown(*low), geom::Shown(*high)),
@@ -59,7 +61,7 @@ pub struct Key {
     pub name: &'static str,
     /// Its type in words.
     pub kind: fn() -> String,
-    /// Unit of plain numbers; "" for none, "file" for the name of a file.
+    /// Unit of plain numbers; "" for none.
     pub unit: &'static str,
     /// What holds without it, in words; [`REQUIRED`] where nothing does.
     pub default: &'static str,
@@ -98,7 +100,7 @@ pub struct Row {
     pub name: String,
     /// Its type in words.
     pub kind: String,
-    /// Unit of plain numbers; "" for none, "file" for the name of a file.
+    /// Unit of plain numbers; "" for none.
     pub unit: &'static str,
     /// The numbers that it takes, in words.
     pub range: String,
@@ -123,8 +125,8 @@ impl From<&Key> for Row {
     fn from(key: &Key) -> Row {
         Row {
             name: key.name.to_owned(),
-            kind: if key.unit == "file" { "file".to_owned() } else { (key.kind)() },
-            unit: if key.unit == "file" { "" } else { key.unit },
+            kind: if key.range == Range::File { "file".to_owned() } else { (key.kind)() },
+            unit: key.unit,
             range: key.range.to_string(),
             // Rust wants 1.0 where people write 1.
             default: key

@@ -13,11 +13,11 @@ table! {
         /// Name in messages and output.
         name: Option<String> = absent("\"wall.N\""), "", Name, "\"hopper\"";
         /// Wall spheres (walls MCAP).
-        source: Option<String> = absent("–"), "file", Any, "\"walls.mcap\"";
+        source: Option<String> = absent("–"), "", File, "\"walls.mcap\"";
         /// Unbounded plane `px,py,pz,nx,ny,nz`; the normal points to the grains.
         plane: Option<PlaneText> = absent("–"), "m", Any, "[0, 0, 0, 0, 0, 1]";
         /// Triangles (PLY, STL, OBJ, text).
-        mesh: Option<String> = absent("–"), "file", Any, "\"chute.stl\"";
+        mesh: Option<String> = absent("–"), "", File, "\"chute.stl\"";
         /// Surface of a solid: `box:…`, `cylinder:…`, `cone:…` or `sphere:…`; see below.
         solid: Option<ShapeText> = absent("–"), "m", Any, "\"cylinder:0,0,0,0,0,1,0.1\"";
         /// Unit of the lengths in the file of `mesh` or `source`: "mm", "cm", "m", "in", "ft"; this or `scale`.
@@ -167,7 +167,7 @@ table! {
     /// A motion as a table over time.
     Path inline {
         /// A CSV file with the columns `t` [s], `x`, `y`, `z` [m] and `angle` [rad].
-        source: String = required, "file", Any, "\"path.csv\"";
+        source: String = required, "", File, "\"path.csv\"";
         /// Axis of the column `angle`, right-handed.
         about: Option<[f64; 3]> = absent("–"), "", Finite, "[0, 1, 0]";
         /// A point of this axis.

@@ -36,6 +36,6 @@ table! {
         /// Mark of the plant; a record of another plant is refused.
         plant: Option<String> = absent("none"), "", Any, "\"1f3a\"";
         /// Inlet MCAP.
-        source: Option<String> = absent("command line"), "file", Any, "\"inlet.mcap\"";
+        source: Option<String> = absent("command line"), "", File, "\"inlet.mcap\"";
     }
 }
