@@ -108,7 +108,9 @@ impl Normal {
         match self.law {
             Law::Hooke { stiffness, .. } => response((Hooke { stiffness, damping }, cohesion), contact),
             Law::Hertz => response((Hertz { modulus, damping }, cohesion), contact),
-            Law::Jkr { work_of_adhesion } => response(Jkr { modulus, work_of_adhesion, damping }, contact),
+            Law::Jkr { work_of_adhesion } => {
+                response(Jkr::with_modulus(modulus, work_of_adhesion, damping), contact)
+            }
         }
     }
 

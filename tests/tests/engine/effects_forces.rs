@@ -48,7 +48,7 @@ fn cohesion_is_energy_density_times_common_volume() {
 }
 
 fn jkr() -> Jkr {
-    Jkr { modulus: MODULUS, work_of_adhesion: WORK, damping: Damping::NONE }
+    Jkr::with_modulus(MODULUS, WORK, Damping::NONE)
 }
 
 /// Overlap and force of the closed form for a radius of contact a: δ = a²/R − √(2π w a/E*), F = 4E*a³/3R − √(8π w E* a³).

@@ -75,7 +75,7 @@ fn every_law_takes_the_tangential_stiffness_that_it_is_given() {
     let hertz = stiffness("hertz", &[("restitution", 0.5)]);
     STIFFNESS.equals("hertz", hertz, "N/m", of_radius((RADIUS * OVERLAP).sqrt()), 1e-3);
     let keys = [("restitution", 0.5), ("work_of_adhesion", WORK)];
-    let jkr = Jkr { modulus: elastic.modulus, work_of_adhesion: WORK, damping: dem::effects::Damping::NONE };
+    let jkr = Jkr::with_modulus(elastic.modulus, WORK, dem::effects::Damping::NONE);
     let last = jkr.last_radius(RADIUS);
     let a = last * Jkr::spread(OVERLAP, RADIUS, last).powi(2);
     STIFFNESS.equals("jkr", stiffness("jkr", &keys), "N/m", of_radius(a), 1e-3);

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! tables        what lies in the memory of the device
-//! compositions  the compositions of effects that devices have
+//! compositions  the compositions of effects, by number
 //! threads       a contact, a particle
 //! lists         neighbour lists: cells, pairs, slots
 //! ```

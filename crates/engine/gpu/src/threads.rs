@@ -9,7 +9,6 @@
 //! launch of contacts for each composition of effects, and one of particles. Tables lie in the memory of the device.
 #![expect(unsafe_code, reason = "threads share tables, of which each writes its own rows only")]
 
-use crate::compositions::Ported;
 use crate::tables::{DeviceBlock, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PLANE, SPHERES};
 use core::slice;
 use laws::contact::contact_loop::{act, gather};
@@ -20,18 +19,19 @@ use laws::contact::wall_point::WallPose;
 use laws::contact::{
     Batch, MoveInputs, Mover, SlotEnd, StepInputs, Sums, WrenchBuffer, WrenchSlices, WrenchSlicesMut,
 };
+use laws::effects::Effect;
 use laws::simd::{BLOCK, Each, FORCE_AND_MOMENT, Row, Row4, TORQUE};
 use primitives::Vec3;
 
 /// Numbers of history that a composition keeps at most.
-const COLUMNS: usize = 8;
+const COLUMNS: usize = 16;
 
 /// The contact in a slot, if its effects are `E`, number `composition` of the compositions; in step `step` of a launch.
 ///
 /// # Safety
 /// Tables are in place and hold what they say; no other thread has this slot, and none moves particles meanwhile.
 #[inline(always)]
-pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, slot: usize) {
+pub unsafe fn contact<E: Effect>(t: &DeviceTables, composition: u32, step: u32, slot: usize) {
     const { assert!(E::HISTORY <= COLUMNS) };
     // SAFETY: by contract; this thread alone writes to the rows of its slot.
     unsafe {
@@ -120,6 +120,34 @@ pub unsafe fn contact<E: Ported>(t: &DeviceTables, composition: u32, step: u32, 
     }
 }
 
+/// Notes whether the contact in a slot has been made, for those of its patch: their threads may run after its history has changed. In step `step` of a launch.
+///
+/// # Safety
+/// Tables are in place and hold what they say; no other thread has this slot, and none computes contacts meanwhile.
+#[inline(always)]
+pub unsafe fn made(t: &DeviceTables, step: u32, slot: usize) {
+    // SAFETY: by contract.
+    unsafe {
+        if slot >= t.slot_count as usize || t.is_over(step) {
+            return;
+        }
+        let block: DeviceBlock = *t.contacts.blocks.at(slot / BLOCK);
+        if block.kind >= t.lists.kind_count {
+            return t.beyond(step);
+        }
+        let kind: &DeviceKind = &*t.kinds.at(block.kind as usize);
+        if kind.gap == 0.0 {
+            return;
+        }
+        let word = block.history as usize + slot % BLOCK;
+        if word >= t.history_count as usize {
+            return t.beyond(step);
+        }
+        // The history of a law that adheres begins with what says that contact was made.
+        *t.made.at(slot) = u8::from(*t.contacts.history.at::<f64>(word) > 0.0);
+    }
+}
+
 /// What part the contact in a slot, of particle `i` and a kind of this number, has in its patch of wall spheres. Not inlined, so that one copy serves all compositions; generic, or that copy would stay in the library.
 ///
 /// # Safety
@@ -144,14 +172,15 @@ unsafe fn share<const COPY: bool>(
             to += 1;
         }
         let row: Row = *t.particles.rows.at(i as usize);
-        let law = PatchLaw { shared: true, hertz: kind.patch > 1, gap: 0.0 };
+        let law = PatchLaw { shared: true, hertz: kind.patch > 1, gap: kind.gap };
         let touch = |k: usize| {
             let at = from + k;
             let point = block(at).point as usize + at % BLOCK;
             let other = partner(t, step, kind, &row, *t.contacts.partner.at(at), point);
             // The contact itself says that it is beyond.
             let other = other.map_or(row, |(other, _)| other);
-            Touch::of(law, [t.drive.dt, t.drive.ahead], &row, &other, 0.0)
+            let held = law.gap > 0.0 && *t.made.at::<u8>(at) != 0;
+            Touch::of(law, [t.drive.dt, t.drive.ahead], &row, &other, law.held(&row, &other, held))
         };
         let Some(patch) = Patch::of(law, to - from, touch) else { return ALONE };
         let bodies = Bodies { inverse_mass: row.inverse_mass(), direction: Vec3::zeros(), wall: 0.0 };

@@ -16,24 +16,34 @@ fn thread() -> usize {
 }
 
 macro_rules! entries {
-    ($($name:ident: $effects:ty;)*) => {
-        entries!(@ 0; $($name: $effects;)*);
-    };
-    (@ $number:expr; $name:ident: $effects:ty; $($rest:tt)*) => {
-        /// The contacts of one composition.
-        ///
-        /// # Safety
-        /// As [`contact`] says; the processor that launches it sees to it.
-        #[unsafe(no_mangle)]
-        pub unsafe extern "ptx-kernel" fn $name(tables: DeviceTables, step: u32) {
-            // SAFETY: by contract.
-            unsafe { contact::<$effects>(&tables, $number, step, thread()) }
-        }
+    (@ $number:expr; [$first:ident $($part:ident)*] $effects:ty; $($rest:tt)*) => {
+        const _: () = {
+            /// The contacts of one composition.
+            ///
+            /// # Safety
+            /// As [`contact`] says; the processor that launches it sees to it.
+            #[unsafe(export_name = concat!("contacts_", stringify!($first) $(, "_", stringify!($part))*))]
+            pub unsafe extern "ptx-kernel" fn entry(tables: DeviceTables, step: u32) {
+                // SAFETY: by contract.
+                unsafe { contact::<$effects>(&tables, $number, step, thread()) }
+            }
+        };
         entries!(@ $number + 1; $($rest)*);
     };
     (@ $number:expr;) => {};
+    ($($all:tt)*) => { entries!(@ 0; $($all)*); };
 }
-gpu::ported!(entries);
+gpu::laws::compositions!(entries);
+
+/// Which contacts have been made.
+///
+/// # Safety
+/// As [`gpu::threads::made`] says.
+#[unsafe(no_mangle)]
+pub unsafe extern "ptx-kernel" fn made(tables: DeviceTables, step: u32) {
+    // SAFETY: by contract.
+    unsafe { gpu::threads::made(&tables, step, thread()) }
+}
 
 /// Sums and moves, without rotation.
 ///

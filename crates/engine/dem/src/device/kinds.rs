@@ -3,13 +3,19 @@
 use crate::device::DeviceError;
 use crate::device::tables::Table;
 use crate::device::work::Work;
-use crate::model::{Model, With};
-use gpu::compositions::NAMES;
+use crate::model::{Kind, Model, With};
+use gpu::compositions::number;
 use gpu::tables::{Address, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PARTICLES, PLANE, SPHERES};
 use laws::simd::Row4;
 
 /// Classes of pairs of particles: the second is of the same tile or of a later one, and they touch or do not.
 const PAIR_CLASSES: u32 = 4;
+
+/// Number of the composition of a kind of contact, and the numbers of its effects; none where a device does not have its precision.
+pub fn numbers_of(kind: &Kind) -> Option<(usize, Vec<f64>)> {
+    let (of, numbers) = kind.composition.ported()?;
+    Some((number(of)?, numbers))
+}
 
 /// Its tables.
 #[derive(Default)]
@@ -61,16 +67,17 @@ impl Fixed {
         let (mut classes, mut of_images, mut all) = (0, 0, Vec::new());
         self.kinds.clear();
         for kind in &model.kinds {
-            let (name, numbers) = kind.composition.ported().unwrap_or_default();
+            let (composition, numbers) = numbers_of(kind).unwrap_or_default();
             let columns = kind.composition.columns();
             let mut new = DeviceKind {
-                composition: NAMES.iter().position(|n| *n == name).unwrap_or(NAMES.len()) as u32,
+                composition: composition as u32,
                 with: PARTICLES,
                 numbers: all.len() as u32,
                 between: [u32::from(kind.between.0), u32::from(kind.between.1)],
                 class: classes,
                 columns: columns as u32,
                 patch: kind.patch.filter(|p| p.shared).map_or(0, |p| 1 + u32::from(p.hertz)),
+                gap: kind.patch.filter(|p| p.shared).map_or(0.0, |p| p.gap),
                 flips: (0..columns).map(|c| u32::from(kind.composition.flips(c)) << c).sum(),
                 ..DeviceKind::default()
             };

@@ -1,11 +1,11 @@
 //! A device that is this processor: one thread after the other, in an order that is not theirs. Tests compare its bits.
 #![expect(unsafe_code, reason = "it calls what a device runs, with tables that lie in its own memory")]
 
-use crate::device::{Device, DeviceError};
+use crate::device::{Device, DeviceError, LISTS, MADE, MOVES};
 use gpu::compositions::NAMES;
 use gpu::lists;
 use gpu::tables::{Address, DeviceTables};
-use gpu::threads::{contact, particle};
+use gpu::threads::{made, particle};
 use std::collections::BTreeMap;
 
 /// A device in the memory of this process.
@@ -31,27 +31,31 @@ impl Local {
     }
 }
 
+/// The thread of a contact.
+type Contacts = unsafe fn(&DeviceTables, u32, u32, usize);
+
 macro_rules! functions {
-    ($($name:ident: $effects:ty;)*) => {
+    ($($name:tt $effects:ty;)*) => {
         /// The thread of a function by its number, in [`crate::device::functions`].
         ///
         /// # Safety
-        /// As [`contact`] and [`particle`] say.
+        /// As [`gpu::threads::contact`] and [`particle`] say.
         unsafe fn thread(function: usize, tables: &DeviceTables, step: u32, thread: usize) {
-            let name = NAMES.get(function).copied();
+            let compositions: [Contacts; NAMES.len()] = [$(gpu::threads::contact::<$effects>),*];
             // SAFETY: by contract.
             unsafe {
-                match name {
-                    $(Some(stringify!($name)) => contact::<$effects>(tables, function as u32, step, thread),)*
-                    _ if function == NAMES.len() => particle::<false>(tables, step, thread),
-                    _ if function == NAMES.len() + 1 => particle::<true>(tables, step, thread),
-                    _ => list_thread(function - NAMES.len() - 2, tables, step, thread),
+                match compositions.get(function) {
+                    Some(contacts) => contacts(tables, function as u32, step, thread),
+                    _ if function == MADE => made(tables, step, thread),
+                    _ if function == MOVES => particle::<false>(tables, step, thread),
+                    _ if function == MOVES + 1 => particle::<true>(tables, step, thread),
+                    _ => list_thread(function - LISTS, tables, step, thread),
                 }
             }
         }
     };
 }
-gpu::ported!(functions);
+laws::compositions!(functions);
 
 macro_rules! list_functions {
     ($($name:ident)*) => {

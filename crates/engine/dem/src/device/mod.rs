@@ -28,9 +28,18 @@ use gpu::compositions::NAMES;
 use gpu::lists::LIST_FUNCTIONS;
 use gpu::tables::{Address, DeviceTables};
 
-/// Functions that a device must have, by number: the compositions, the moves without and with rotation, and what makes lists.
+/// Functions of a step besides contacts, after the compositions: which contacts have been made; the moves without and with rotation.
+const STEPS: [&str; 3] = ["made", "centres", "spheres"];
+/// Number of the first of them.
+const MADE: usize = NAMES.len();
+/// Number of the move without rotation; the next is that with it.
+const MOVES: usize = MADE + 1;
+/// Number of the first function that makes lists.
+const LISTS: usize = MADE + STEPS.len();
+
+/// Functions that a device must have, by number: the compositions, the others of a step, and what makes lists.
 pub fn functions() -> Vec<&'static str> {
-    NAMES.iter().copied().chain(["centres", "spheres"]).chain(LIST_FUNCTIONS.iter().copied()).collect()
+    NAMES.iter().copied().chain(STEPS).chain(LIST_FUNCTIONS.iter().copied()).collect()
 }
 
 /// Something that runs the threads of a step.

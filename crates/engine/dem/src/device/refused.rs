@@ -1,5 +1,6 @@
 //! What a device does not compute: refused by name before anything starts.
 
+use crate::device::kinds::numbers_of;
 use crate::model::Model;
 use crate::setup::WallShape;
 use crate::state::State;
@@ -28,7 +29,7 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
         refuse(matches!(wall.shape, WallShape::Mesh(_)), &format!("the triangles of wall '{}'", wall.name));
     }
     if setup.precision == Precision::Double {
-        for kind in model.kinds.iter().filter(|k| k.composition.ported().is_none()) {
+        for kind in model.kinds.iter().filter(|k| numbers_of(k).is_none()) {
             let (a, b) = kind.between;
             let name = |m: u16| &setup.materials[m as usize].name;
             let of = |law: &&ContactLaw| law.between == (a, b) || law.between == (b, a);

@@ -4,14 +4,13 @@ use crate::device::lister::{Lister, Why};
 use crate::device::refused::refused;
 use crate::device::tables::{Plain, Table};
 use crate::device::work::Work;
-use crate::device::{Device, DeviceError};
+use crate::device::{Device, DeviceError, MADE, MOVES};
 use crate::model::Model;
 use crate::neighbours::poses::periods_travelled;
 use crate::neighbours::rebuild::{adapt_skin, take_lists};
 use crate::neighbours::{NeighbourLists, Slots};
 use crate::state::{Forces, ListStatus, State};
 use crate::threads::change;
-use gpu::compositions::NAMES;
 use gpu::tables::{DeviceFlags, DeviceTables};
 use laws::contact::wall_point::WallPose;
 use laws::simd::{Row, Row4};
@@ -240,7 +239,11 @@ impl Stepper {
         poses: impl Fn(u64) -> Vec<WallPose>,
         mut goes_on: impl FnMut(u64) -> bool,
     ) -> Result<Found, DeviceError> {
-        let (functions, moves) = (self.compositions.clone(), NAMES.len() + self.tables.rotates as usize);
+        let moves = MOVES + self.tables.rotates as usize;
+        // Contacts that last beyond touching are looked at before any of them changes.
+        let lasts = self.lister.fixed.kinds.iter().any(|kind| kind.gap > 0.0);
+        let functions: Vec<usize> =
+            lasts.then_some(MADE).into_iter().chain(self.compositions.clone()).collect();
         let (mut done, start) = (0, Instant::now());
         // From here on the device is ahead.
         self.held = None;

@@ -66,7 +66,7 @@ fields! {
     DeviceBlock { kind: u32, history: u32, point: u32 }
     DeviceKind {
         composition: u32, with: u32, numbers: u32, wall: u32, between: [u32; 2], class: u32, columns: u32,
-        flips: u32, patch: u32, plane: [[f64; 3]; 2],
+        flips: u32, patch: u32, gap: f64, plane: [[f64; 3]; 2],
     }
     DeviceFlags { stopped: u32, left_margin: u32, too_fast: u32, deep: u32, beyond: u32 }
     WallPose { pose: Pose, belt: Pose, has_belt: u64 }

@@ -75,7 +75,7 @@ impl TileSlice<'_> {
             // The history of a law that adheres begins with what says that contact was made.
             let (history, columns) = (s.history - self.from.history, kind.composition.columns());
             let at = self.layout.history_at(history, k, 0, columns);
-            held(row, &points[k], law, self.layout.get(self.history, at) > 0.0)
+            law.held(row, &points[k], self.layout.get(self.history, at) > 0.0)
         };
         NEAR.with_borrow_mut(|near| {
             let Near { candidates, grain } = near;
@@ -122,13 +122,6 @@ fn find_candidates(
         count += usize::from((row.position() - point.position()).norm_squared() < far * far);
     }
     found.truncate(count);
-}
-
-/// Gap up to which a contact lasts, if it was made or is being made [m].
-fn held(row: &Row, other: &Row, law: PatchLaw, made: bool) -> f64 {
-    let reach = row.radius() + other.radius();
-    let touches = (row.position() - other.position()).norm_squared() < reach * reach;
-    if made || touches { law.gap * libm::cbrt(row.radius() * other.radius() / reach) } else { 0.0 }
 }
 
 impl NearGrain {

@@ -4,7 +4,6 @@
 //! that most scenes use are compiled in every precision; all others in double precision only, where cohesion, the weakening of
 //! friction, and moduli or dashpots that are given, which keep nothing, are not compositions of their own but a branch for each group of contacts.
 
-use gpu::compositions::{Portable, Ported};
 use laws::contact::{Composition, Narrow};
 use laws::effects::*;
 use laws::simd::Precision;
@@ -49,9 +48,7 @@ laws::effects!(compositions);
 
 fn in_every_precision<N>(pair: &Pair, precision: Precision, law: N) -> Box<dyn Composition>
 where
-    N: Ported,
-    (N, SlidingFriction): Ported,
-    (N, (SlidingFriction, RollingResistance)): Ported,
+    N: Effect,
 {
     let (sliding, rolling) = (SlidingFriction::<f64>::of(pair), RollingResistance::of(pair));
     match (sliding, rolling) {
@@ -61,24 +58,25 @@ where
     }
 }
 
-fn precise<E: Ported>(precision: Precision, effects: E) -> Box<dyn Composition> {
+fn precise<E: Effect>(precision: Precision, effects: E) -> Box<dyn Composition> {
     match precision {
-        Precision::Double => Box::new(Portable(effects)),
+        Precision::Double => Box::new(effects),
         Precision::Mixed => Box::new(Narrow(effects, PhantomData::<f64>)),
         Precision::Single => Box::new(Narrow(effects, PhantomData::<f32>)),
     }
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use super::*;
     use laws::effects::Compliance;
+    use laws::effects::Key;
     use laws::effects::Material;
 
-    /// Every law that a scene can ask for: each normal law with each choice of effects for the other slots.
-    fn laws() -> Vec<ContactLaw> {
+    /// Every law that a scene can ask for, with these numbers: each normal law with each choice of effects for the other slots.
+    pub fn laws(number: impl Fn(&Key) -> Option<f64>) -> Vec<ContactLaw> {
         let with = |mut law: ContactLaw, effect: &Description| {
-            effect.keys.iter().for_each(|key| law.set(key.name, 0.5));
+            effect.keys.iter().for_each(|key| law.set(key.name, number(key)));
             effect.model.into_iter().for_each(|model| law.choose(model.key, model.value));
             law
         };
@@ -102,8 +100,9 @@ mod tests {
     fn kernels_keep_what_their_effects_describe_and_no_more() {
         let material = Material { name: "a".to_owned(), density: 1e3, young: 1e6, poisson: 0.3 };
         let elastic = Elastic::of(&material, &material);
-        assert!(laws().len() > 70, "{}", laws().len());
-        for law in laws() {
+        let all = laws(|_| Some(0.5));
+        assert!(all.len() > 70, "{}", all.len());
+        for law in all {
             let compliance = Compliance { clumps: 1.0, springs: 1.0 };
             let pair = Pair { law: &law, elastic, compliance, damping: Damping::NONE };
             let composition = compose(&pair, Precision::Double);

@@ -6,7 +6,7 @@
 pub mod bonds;
 pub mod check;
 pub mod clumps;
-mod compose;
+pub mod compose;
 pub mod contact_check;
 pub mod dense_walls;
 pub mod entrance;

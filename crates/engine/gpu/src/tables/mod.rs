@@ -32,6 +32,8 @@ pub struct DeviceKind {
     pub flips: u32,
     /// How contacts with spheres of a wall share it: 0: each by itself; 1: u ∝ δ²; 2: u ∝ δ^(5/2).
     pub patch: u32,
+    /// Gap at which their contacts break ([`laws::contact::touch::PatchLaw::gap`]) [m].
+    pub gap: f64,
     /// Point and normal of a plane, as at t = 0.
     pub plane: [[f64; 3]; 2],
 }
@@ -101,6 +103,8 @@ pub struct DeviceTables {
     pub contacts: ContactTables,
     /// Whether the contact in a slot acts, a byte.
     pub acts: Address,
+    /// Whether the contact in a slot had been made when the step began, a byte; where contacts last beyond touching.
+    pub made: Address,
     /// Force of each contact, and the moment of its tangential part where particles turn.
     pub forces: Address,
     /// Torque of each contact besides; none where no effect makes any.

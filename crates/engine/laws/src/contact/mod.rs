@@ -21,6 +21,7 @@ pub use wrenches::{Arrival, SlotEnd, WrenchSlices, WrenchSlicesMut};
 use crate::effects::{Effect, History};
 use crate::simd::compiled::{self, Eights, Job, Lanes, Singles};
 use crate::simd::{Lane, Layout, Number, Row, Row4, Width};
+use core::any::TypeId;
 use core::marker::PhantomData;
 
 /// Numbers of one contact in the energy ledger: elastic, dissipated (normal, sliding, rolling, twisting), wall work, lost at once; and its normal stiffness.
@@ -85,8 +86,8 @@ pub trait Composition: Send + Sync {
     fn torques(&self) -> bool;
     /// Computes the wrenches of some blocks; true when an overlap passes the limit.
     fn run(&self, width: Width, step: StepInputs, batch: Batch) -> bool;
-    /// Name and numbers of a composition that is compiled for devices as well.
-    fn ported(&self) -> Option<(&'static str, Vec<f64>)> {
+    /// Its type and its numbers, as a device gets them; none where devices do not have its precision.
+    fn ported(&self) -> Option<(TypeId, Vec<f64>)> {
         None
     }
 }
@@ -106,6 +107,11 @@ impl<E: Effect> Composition for E {
     }
     fn run(&self, width: Width, step: StepInputs, batch: Batch) -> bool {
         run::<Eights, E, f64>(self, width, step, batch)
+    }
+    fn ported(&self) -> Option<(TypeId, Vec<f64>)> {
+        let mut numbers = Vec::new();
+        self.put(&mut numbers);
+        Some((TypeId::of::<E>(), numbers))
     }
 }
 

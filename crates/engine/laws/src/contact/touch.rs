@@ -1,5 +1,6 @@
 //! A grain beside one sphere of a wall: how deep, and what their contact would hold alone.
 
+use crate::effects::cube_root;
 use crate::float::Float;
 use crate::simd::Row;
 use primitives::Vec3;
@@ -19,6 +20,17 @@ pub struct PatchLaw {
 }
 
 impl PatchLaw {
+    /// Gap up to which the contact of a grain in `row` and a sphere in `other` lasts, if it was made or is being made [m].
+    #[inline(always)]
+    pub fn held(self, row: &Row, other: &Row, made: bool) -> f64 {
+        if self.gap == 0.0 {
+            return 0.0;
+        }
+        let reach = row.radius() + other.radius();
+        let touches = (row.position() - other.position()).norm_squared() < reach * reach;
+        if made || touches { self.gap * cube_root(row.radius() * other.radius() / reach) } else { 0.0 }
+    }
+
     /// Force of a sphere alone, up to a factor that all spheres share; its energy is this × δ, up to another.
     #[inline(always)]
     fn alone(self, overlap: f64, radius: f64) -> f64 {

@@ -14,6 +14,7 @@
 //! friction (as LIGGGHTS without `tangential_reduce`): grains rub by what presses them together.
 //! Comes after the normal law, before friction.
 
+use super::numbers::numbers;
 use super::{Contact, ContactEffect, Description, Effect, Key, Model, Pair, Range, Response, Slot};
 use crate::simd::Lane;
 use core::f64::consts::PI;
@@ -79,3 +80,5 @@ impl Effect for Cohesion {
         response.elastic = response.elastic - number(self.energy_density) * volume * contact.share;
     }
 }
+
+numbers!(Cohesion { energy_density: f64 });

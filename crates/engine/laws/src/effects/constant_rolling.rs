@@ -20,6 +20,7 @@
 //! where the dashpot bears the moment and it creeps at a speed ∝ Δt; the spring model holds it.
 
 use super::capped_spring::turned;
+use super::numbers::numbers;
 use super::rolling_resistance::COEFFICIENT;
 use super::{Contact, ContactEffect, Description, Effect, Field, Kind, Model, Pair, Response, Slot};
 use crate::simd::{Lane, V};
@@ -129,3 +130,5 @@ impl Effect for ConstantRolling {
         response.dissipate(DESCRIPTION.slot, dissipated);
     }
 }
+
+numbers!(ConstantRolling { resistance: f64, compliance: f64 });

@@ -11,6 +11,7 @@
 
 use super::describe::{Key, MOST, Range};
 use super::law::ContactLaw;
+use super::numbers::numbers;
 use crate::float::Float;
 use crate::simd::Lane;
 
@@ -112,3 +113,5 @@ pub fn damping_ratios(law: &ContactLaw, [normal, tangential]: [f64; 2]) -> [f64;
     let along = law.number(NORMAL_DAMPING.name).map_or_else(of_restitution, |eta| eta / normal);
     [along, law.number(TANGENTIAL_DAMPING.name).map_or(along, |eta| eta / tangential)]
 }
+
+numbers!(Damping { ratio: f64, first: f64, second: f64, booked: [f64; 2], dissipates: f64 });

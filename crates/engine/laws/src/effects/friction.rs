@@ -7,6 +7,7 @@
 //! ```
 
 use super::damping::{NORMAL_DAMPING, TANGENTIAL_DAMPING};
+use super::numbers::numbers;
 use super::sliding_friction::{self, COEFFICIENT};
 use super::weakening::Weakening;
 use super::{Coefficient, Contact, ContactLaw, Description, Pair, tangential_ratio};
@@ -76,3 +77,6 @@ impl Coefficient for Friction {
         }
     }
 }
+
+numbers!(Friction { coefficient: Mu, dashpot: Option<f64> });
+numbers!(Mu: Constant(f64) or Weakening(Weakening));

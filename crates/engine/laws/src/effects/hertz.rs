@@ -8,6 +8,7 @@
 //! doi:10.1016/0032-5910(92)88030-L; γ from e is exact for contact until δ = 0, not Tsuji's polynomial: Antypov &
 //! Elliott (2011), EPL 94, doi:10.1209/0295-5075/94/50004.
 
+use super::numbers::numbers;
 use super::{
     Contact, ContactEffect, ContactLaw, Damping, Description, Effect, Elastic, Model, NormalLaw,
     OverlapLimit, Pair, RESTITUTION, Response, Slot,
@@ -89,3 +90,5 @@ impl Effect for Hertz {
         response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt * self.damping.dissipates(pace));
     }
 }
+
+numbers!(Hertz { modulus: f64, damping: Damping });

@@ -9,6 +9,7 @@
 //! in its last moment.
 
 use super::damping::RESTITUTION;
+use super::numbers::numbers;
 use super::{
     Contact, ContactLaw, Contradiction, Damping, Description, Effect, Elastic, Key, Model, NormalLaw,
     OverlapLimit, Pair, Range, Response, Slot, hooke_direct,
@@ -135,3 +136,5 @@ pub fn spring_and_dashpot<R: Lane>(
     response.elastic = response.elastic + R::splat(0.5) * k * contact.present * contact.present;
     response.dissipate(DESCRIPTION.slot, damping * contact.approach * dt * dissipates);
 }
+
+numbers!(Hooke { stiffness: f64, damping: Damping });

@@ -15,6 +15,7 @@
 
 use super::damping::NORMAL_DAMPING;
 use super::hooke::{self, STIFFNESS, TANGENTIAL_RATIO, TANGENTIAL_STIFFNESS};
+use super::numbers::numbers;
 use super::{
     Contact, ContactEffect, ContactLaw, Contradiction, Damping, Description, Effect, Elastic, Hooke, Key,
     NormalLaw, OverlapLimit, Pair, RESTITUTION, Range, Response,
@@ -208,3 +209,7 @@ impl Effect for Linear {
         }
     }
 }
+
+numbers!(Spring { constant: f64, contact: f64, effective: f64 });
+numbers!(HookeDirect { spring: Spring, damping: Damping, dashpot: f64 });
+numbers!(Linear: Plain(Hooke) or Direct(HookeDirect));

@@ -22,6 +22,7 @@
 //! books all of W when contact is made. On a triangle mesh each triangle is a contact of its own: a grain that rolls over a seam
 //! while it is pulled comes free there, and the ledger books W again.
 
+use super::numbers::numbers;
 use super::{
     Contact, ContactEffect, ContactLaw, Damping, Description, Effect, Elastic, Field, Key, Kind, Model,
     NormalLaw, OverlapLimit, Pair, RESTITUTION, Range, Response, Slot,
@@ -67,7 +68,7 @@ pub const DESCRIPTION: Description = Description {
 
 fn undamped(law: &ContactLaw, elastic: Elastic) -> Jkr {
     let work_of_adhesion = law.number("work_of_adhesion").unwrap_or(f64::NAN);
-    Jkr { modulus: elastic.modulus, work_of_adhesion, damping: Damping::NONE }
+    Jkr::with_modulus(elastic.modulus, work_of_adhesion, Damping::NONE)
 }
 
 /// 2 E* a.
@@ -101,16 +102,23 @@ pub struct Jkr {
     pub modulus: f64,
     /// w [J/m²].
     pub work_of_adhesion: f64,
+    /// a_c for R* = 1 m, (πw/8E*)^(1/3) [m^(1/3)].
+    pub scale: f64,
     /// γ √(5/6), γ as for [`super::Hooke`].
     pub damping: Damping,
 }
 
 impl Jkr {
+    /// Of E* [Pa], w [J/m²] and γ √(5/6).
+    pub fn with_modulus(modulus: f64, work_of_adhesion: f64, damping: Damping) -> Jkr {
+        let scale = libm::cbrt(PI * work_of_adhesion / (8.0 * modulus));
+        Jkr { modulus, work_of_adhesion, scale, damping }
+    }
+
     /// a_c [m], the radius of contact at the break.
     #[inline(always)]
     pub fn last_radius<R: Lane>(&self, radius: R) -> R {
-        let scale = libm::cbrt(PI * self.work_of_adhesion / (8.0 * self.modulus));
-        R::splat(scale) * cube_root(radius * radius)
+        R::splat(self.scale) * cube_root(radius * radius)
     }
 
     /// δ_c [m], the gap at which contact breaks.
@@ -193,7 +201,7 @@ impl Effect for Jkr {
 /// x^(1/3) of a positive number: from x^(1/4 + 1/16), which is within a factor of 3 for 1e-21 < x < 1e21, by Halley's steps,
 /// each of which triples the digits.
 #[inline(always)]
-fn cube_root<R: Lane>(x: R) -> R {
+pub fn cube_root<R: Lane>(x: R) -> R {
     let quarter = x.sqrt().sqrt();
     let mut y = quarter * quarter.sqrt().sqrt();
     for _ in 0..5 {
@@ -202,3 +210,5 @@ fn cube_root<R: Lane>(x: R) -> R {
     }
     y
 }
+
+numbers!(Jkr { modulus: f64, work_of_adhesion: f64, scale: f64, damping: Damping });

@@ -19,6 +19,7 @@ mod jkr;
 mod law;
 mod material;
 mod messages;
+mod numbers;
 mod pair;
 mod registry;
 mod rolling_resistance;
@@ -38,10 +39,11 @@ pub use hertz::Hertz;
 pub use history::History;
 pub use hooke::Hooke;
 pub use hooke_direct::{Linear, MODULI, by_modulus};
-pub use jkr::Jkr;
+pub use jkr::{Jkr, cube_root};
 pub use law::ContactLaw;
 pub use material::{Compliance, Elastic, Material, OverlapLimit};
 pub use messages::{Dropped, needed};
+pub use numbers::Numbers;
 pub use pair::{Pair, tangential_ratio};
 pub use registry::{DESCRIPTIONS, active, keys, models, without};
 pub use rolling_resistance::RollingResistance;
@@ -184,7 +186,7 @@ pub trait ContactEffect: Effect {
 }
 
 /// An effect of contact.
-pub trait Effect: Copy + Send + Sync + 'static {
+pub trait Effect: Numbers + Send + Sync + 'static {
     /// Memory of one contact between steps.
     type History<R: Lane>: History<R>;
     /// Numbers of history for each contact.

@@ -11,6 +11,7 @@
 //! M never exceeds the cap.
 
 use super::capped_spring::{CappedSpring, turned};
+use super::numbers::numbers;
 use super::{
     Contact, ContactEffect, ContactLaw, Description, Effect, Field, Key, Kind, Model, Pair, Range, Response,
     Slot, Turning, TurningPair,
@@ -98,3 +99,5 @@ impl Effect for RollingResistance {
         response.dissipate(DESCRIPTION.slot, pull.dissipated);
     }
 }
+
+numbers!(RollingResistance { resistance: f64 });

@@ -12,12 +12,14 @@
 //! grains pulled together are pressed by: Thornton (1991), J. Phys. D 24, doi:10.1088/0022-3727/24/11/007. A contact
 //! with F_p < 0 carries no tangential force. Comes after every effect that changes F_n.
 
+use super::Numbers;
 use super::capped_spring::{CappedSpring, turned};
 use super::{
     Contact, ContactEffect, Description, Effect, Field, Friction, Key, Kind, Pair, Range, Response, Slot,
     friction, tangential_ratio, weakening,
 };
 use crate::simd::{Lane, V};
+use alloc::vec::Vec;
 
 /// ξ.
 pub const SPRING: Field = Field { name: "sliding", kind: Kind::Vector, unit: "m", doc: "ξ, the spring" };
@@ -46,7 +48,7 @@ pub const DESCRIPTION: Description = Description {
 };
 
 /// What μ is: a number, or a function of the state of the contact.
-pub trait Coefficient: Copy + Send + Sync + 'static {
+pub trait Coefficient: Numbers + Send + Sync + 'static {
     /// μ [–] of a contact.
     fn of<R: Lane>(&self, contact: &Contact<R>) -> R;
     /// c_t [N s/m], where that of the law is `of_law`.
@@ -132,5 +134,18 @@ impl<C: Coefficient> Effect for SlidingFriction<C> {
         response.tangential = response.tangential + pull.force;
         response.elastic = response.elastic + pull.elastic;
         response.dissipate(DESCRIPTION.slot, pull.dissipated);
+    }
+}
+
+impl<C: Numbers> Numbers for SlidingFriction<C> {
+    const COUNT: usize = C::COUNT + 3;
+    fn put(&self, to: &mut Vec<f64>) {
+        let SlidingFriction { friction, stiffness_ratio, damping_ratio, compliance } = self;
+        (*friction, ((*stiffness_ratio, *damping_ratio), *compliance)).put(to);
+    }
+    #[inline(always)]
+    fn take(from: &mut &[f64]) -> SlidingFriction<C> {
+        let (friction, ((stiffness_ratio, damping_ratio), compliance)) = Numbers::take(from);
+        SlidingFriction { friction, stiffness_ratio, damping_ratio, compliance }
     }
 }

@@ -11,6 +11,7 @@
 //! with the contact by itself, and is the same for i and for j.
 
 use super::capped_spring::CappedSpring;
+use super::numbers::numbers;
 use super::{
     ALONG, Contact, ContactEffect, ContactLaw, Description, Effect, Field, Key, Kind, Pair, Range, Response,
     Slot, Turning, TurningPair, tangential_ratio,
@@ -98,3 +99,5 @@ impl Effect for TwistingResistance {
         response.dissipate(DESCRIPTION.slot, pull.dissipated);
     }
 }
+
+numbers!(TwistingResistance { resistance: f64, stiffness_ratio: f64, compliance: f64 });

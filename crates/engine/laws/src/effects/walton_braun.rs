@@ -12,6 +12,7 @@
 //! unloading nothing is lost, and small vibrations last; W is lost at once, as δ_max grows.
 
 use super::hooke::{STIFFNESS, TANGENTIAL_RATIO, TANGENTIAL_STIFFNESS, contradiction, unloaded_overlap};
+use super::numbers::numbers;
 use super::{
     Contact, ContactEffect, ContactLaw, Description, Effect, Field, Key, Kind, Model, NormalLaw, Pair,
     RESTITUTION, Range, Response, Slot,
@@ -95,3 +96,5 @@ impl Effect for WaltonBraun {
         response.lost = response.lost + plastic * (*deepest * *deepest - before * before);
     }
 }
+
+numbers!(WaltonBraun { loading: f64, unloading: f64 });

@@ -8,6 +8,7 @@
 //! Hess & Soom (1990), J. Tribology 112(1), doi:10.1115/1.2920220, without the viscous term.
 
 use super::damping::TANGENTIAL_DAMPING;
+use super::numbers::numbers;
 use super::sliding_friction::SPRING;
 use super::{Coefficient, Contact, ContactLaw, Contradiction, Description, Key, Range, Slot};
 use crate::simd::Lane;
@@ -81,3 +82,5 @@ impl Coefficient for Weakening {
         R::splat(self.sliding) + R::splat(self.at_rest - self.sliding) / (R::splat(1.0) + square)
     }
 }
+
+numbers!(Weakening { at_rest: f64, sliding: f64, speed: f64 });

@@ -70,8 +70,10 @@ fn words(count: u32) -> usize {
 fn numbers_beyond_their_tables_stop_the_run() {
     let blocks = |t: &DeviceTables| (t.contacts.blocks, 3 * words(t.slot_count / laws::simd::BLOCK as u32));
     let cases: [(&str, &'static str, Option<u32>, Damage); 5] = [
-        ("partners", "hertz_rolling", None, |t| (t.contacts.partner, words(t.slot_count))),
-        ("blocks", "hertz_rolling", None, blocks),
+        ("partners", "contacts_common_hertz_sliding_rolling", None, |t| {
+            (t.contacts.partner, words(t.slot_count))
+        }),
+        ("blocks", "contacts_common_hertz_sliding_rolling", None, blocks),
         ("entries", "spheres", None, |t| (t.contacts.entries, 64)),
         ("slots of classes", "common_pairs", Some(WRITE), |t| (t.lists.class_slots, 64)),
         ("slots of classes of walls", "wall_parts", Some(WRITE), |t| (t.lists.class_slots, 64)),
