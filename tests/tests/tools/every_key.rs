@@ -91,3 +91,49 @@ fn every_scene_runs() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     note("keys", path, &[]);
 }
+
+/// Puts one more value behind each list at a dotted key, in turn; the changed scenes.
+fn with_one_more(table: &Table, key: &str) -> Vec<String> {
+    fn lists<'a>(value: &'a mut Value, path: &[&str], found: &mut Vec<&'a mut Vec<Value>>) {
+        match (value, path) {
+            (Value::Array(list), []) => found.push(list),
+            (Value::Array(list), _) => list.iter_mut().for_each(|v| lists(v, path, found)),
+            (Value::Table(table), [first, rest @ ..]) => {
+                if let Some(value) = table.get_mut(*first) {
+                    lists(value, rest, found);
+                }
+            }
+            _ => {}
+        }
+    }
+    let path: Vec<&str> = key.split('.').collect();
+    let changed = |n: usize| {
+        let mut whole = Value::Table(table.clone());
+        let mut found = Vec::new();
+        lists(&mut whole, &path, &mut found);
+        let list = found.into_iter().nth(n)?;
+        list.push(list.last()?.clone());
+        Some(whole.to_string())
+    };
+    (0..).map_while(changed).collect()
+}
+
+/// A key that takes so many values refuses one more: it would be lost.
+#[test]
+fn nothing_behind_the_end_of_a_list_is_lost() {
+    let fixed = |row: &Row| row.kind.split(" or ").any(|part| part.starts_with(|c: char| c.is_ascii_digit()));
+    let rows: Vec<(String, Row)> = rows().into_iter().filter(|(_, row)| fixed(row)).collect();
+    let (mut tried, mut taken) = (0, Vec::new());
+    for (name, text) in scenes() {
+        let table: Table = toml::from_str(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
+        for (key, _) in &rows {
+            for longer in with_one_more(&table, key) {
+                tried += 1;
+                if scene::Scene::new("s.toml", longer, &[], std::path::Path::new("")).is_ok() {
+                    taken.push(format!("{name}: {key}"));
+                }
+            }
+        }
+    }
+    assert!(taken.is_empty() && tried > 100, "{tried} tried: {taken:#?}");
+}

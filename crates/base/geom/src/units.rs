@@ -57,12 +57,18 @@ const PREFIXES: [(&str, i32); 9] =
 pub enum UnitError {
     #[error("\"{text}\" has no number in front")]
     Number { text: String },
-    #[error("\"{text}\" has no unit: write it without quotes in {unit}, or add a unit")]
+    #[error("\"{text}\" has no unit: write it {}, or add a unit", plainly(unit))]
     Missing { text: String, unit: &'static str },
     #[error("unknown unit '{symbol}' in \"{text}\"")]
     Unknown { text: String, symbol: String },
     #[error("\"{text}\" is no {unit}: the unit has another dimension")]
     Dimension { text: String, unit: &'static str },
+}
+
+/// How a plain number is written.
+fn plainly(unit: &str) -> String {
+    // Of what has no unit, 0.5 and "50 %" are the same.
+    if unit.is_empty() { "without quotes".to_owned() } else { format!("without quotes in {unit}") }
 }
 
 /// The number that a text such as "8 mm" stands for, in `unit`.
@@ -77,7 +83,7 @@ pub fn parse(text: &str, unit: &'static str) -> Result<f64, UnitError> {
         return Ok(0.0);
     }
     if symbols.is_empty() {
-        return Err(UnitError::Missing { text: whole(), unit: if unit.is_empty() { "%" } else { unit } });
+        return Err(UnitError::Missing { text: whole(), unit });
     }
     let from = Unit::parse(symbols).map_err(|symbol| UnitError::Unknown { text: whole(), symbol })?;
     let to = Unit::parse(unit).unwrap_or(Unit::ONE);

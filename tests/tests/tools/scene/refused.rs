@@ -48,6 +48,16 @@ const MATERIALS_AND_FILLS: &[Change] = &[
 ];
 
 const PAIRS_OF_CONTACTS_AND_BONDS: &[Change] = &[
+    wrong(
+        "\"sinter\", \"*\"",
+        "\"sinter\", \"*\", \"stele\"",
+        &["contact.0.between", "wrong number of values: 3"],
+    ),
+    wrong(
+        "plane = \"0,0,-0.01,0,0,1\"",
+        "box = [0,0,0,1,1,1]\nfaces = []",
+        &["wall.0.faces = []", "nothing of the box"],
+    ),
     wrong("\"sinter\", \"*\"", "\"sintr\", \"*\"", &["contact.0.between.0", "did you mean 'sinter'?"]),
     wrong(
         "\"sinter\", \"*\"",

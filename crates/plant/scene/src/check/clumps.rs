@@ -49,6 +49,10 @@ impl Check<'_> {
             };
             return Err(self.wrong(&key("faces"), faces.to_string(), why, cure));
         }
+        if c.mesh.is_some() && c.mass == ClumpMass::Sum {
+            let why = "counts spheres one by one, and a mesh has its own volume";
+            return Err(self.wrong(&key("mass"), "\"sum\"", why, "take it out"));
+        }
         let spheres = c.spheres.as_deref().unwrap_or_default();
         if c.spheres.is_some() && spheres.is_empty() {
             let cure = "give [[x, y, z, radius], …]";

@@ -25,6 +25,10 @@ impl Check<'_> {
             let cure = "add box = [x0,y0,z0,x1,y1,z1]";
             return Err(self.wrong(&format!("{entry}.faces"), "(given)", "only a box has faces", cure));
         }
+        if w.faces.as_ref().is_some_and(Vec::is_empty) {
+            let cure = "name the faces that exist, such as faces = [\"z-\"], or take it out for all six";
+            return Err(self.wrong(&format!("{entry}.faces"), "[]", "leaves nothing of the box", cure));
+        }
         self.mesh_scale(entry, w)?;
         w.place.as_ref().map_or(Ok(()), |steps| self.place(&format!("{entry}.place"), steps))?;
         if let Some(b) = w.cuboid {

@@ -9,7 +9,7 @@ table! {
     /// `[[bond]]`
     Bond section {
         /// Materials of the two grains.
-        between: [String; 2] = required, "", Any, "[\"*\", \"*\"]";
+        between: [String; 2] = required, "", Any, "[\"rock\", \"rock\"]";
         /// What it resists; see above.
         kind: BondKind = absent("\"beam\""), "", Any, "\"parallel\"";
         /// Which grains, see [clusters](#clusters).

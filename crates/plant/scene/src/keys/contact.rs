@@ -138,7 +138,7 @@ impl<'de> Visitor<'de> for ContactVisitor {
         let mut law = ContactLaw::new((0, 0), "hertz");
         while let Some(key) = map.next_key_seed(OneOf(&KEYS))? {
             if key == BETWEEN {
-                between = Some(map.next_value()?);
+                between = Some(map.next_value_seed(In::<[String; 2]>::new(KeyUnit::of("")))?);
             } else if key == CHARACTERISTIC_VELOCITY {
                 characteristic_velocity = Some(map.next_value_seed(number("m/s"))?);
             } else if let Some((key, values)) = models().into_iter().find(|m| m.0 == key) {

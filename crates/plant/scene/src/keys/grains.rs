@@ -39,7 +39,7 @@ macro_rules! makes_grains {
             $name section {
                 /// Material of the grains.
                 material: Option<String> = absent("required without `clump`, unless each of `sizes` names one"), "", Any, "\"glass\"";
-                /// OneOrRange, or a range [smallest, largest]; uniform in the range.
+                /// Diameter, or a range [smallest, largest]; uniform in the range.
                 diameter: Option<OneOrRange> = absent("this or `sizes`, without `clump`"), "m", Pair, "[\"4 mm\", \"6 mm\"]";
                 /// Sizes with shares, see [sizes](#sizes).
                 sizes: Option<toml::Value> = absent("this or `diameter`"), "m", Any, "[[0.004, 1], [0.006, 2]]";

@@ -199,7 +199,19 @@ macro_rules! plain_values {
 plain_values! {
     bool, "true/false";
     toml::Value, "list or text or table";
-    [String; 2], "2 names";
+}
+
+/// Exactly two: what comes after them would be lost.
+impl KeyValue for [String; 2] {
+    fn kind() -> String {
+        "2 names".to_owned()
+    }
+
+    fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<[String; 2], D::Error> {
+        let names = Vec::<String>::read(unit, from)?;
+        let count = names.len();
+        names.try_into().map_err(|_| D::Error::invalid_length(count, &"a list of 2 names"))
+    }
 }
 
 /// Whole numbers.

@@ -109,6 +109,10 @@ impl PlanBuilder<'_> {
 
     fn wall_named(&self, key: &str, name: &str) -> Result<usize> {
         let names = || self.walls.iter().map(|w| w.name.as_str());
+        if names().filter(|n| *n == name).count() > 1 {
+            let cure = "give each of them a name that no other wall has";
+            return Err(self.check.wrong(key, format!("\"{name}\""), "is the name of several walls", cure));
+        }
         names().position(|n| n == name).ok_or_else(|| {
             let near = nearest(name, names()).map_or(String::new(), |n| format!("did you mean \"{n}\"? "));
             let all: Vec<String> = names().map(|n| format!("\"{n}\"")).collect();
