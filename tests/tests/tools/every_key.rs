@@ -135,5 +135,5 @@ fn nothing_behind_the_end_of_a_list_is_lost() {
             }
         }
     }
-    assert!(taken.is_empty() && tried > 100, "{tried} tried: {taken:#?}");
+    assert!(taken.is_empty() && tried > 80, "{tried} tried: {taken:#?}");
 }

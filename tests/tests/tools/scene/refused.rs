@@ -51,7 +51,7 @@ const PAIRS_OF_CONTACTS_AND_BONDS: &[Change] = &[
     wrong(
         "\"sinter\", \"*\"",
         "\"sinter\", \"*\", \"stele\"",
-        &["contact.0.between", "wrong number of values: 3"],
+        &["s.toml:14:11", "wrong number of values: 3", "2 names"],
     ),
     wrong(
         "plane = \"0,0,-0.01,0,0,1\"",

@@ -1,8 +1,7 @@
 //! A grain beside one sphere of a wall: how deep, and what their contact would hold alone.
 
-use crate::effects::cube_root;
 use crate::float::Float;
-use crate::simd::Row;
+use crate::simd::{Row, cube_root};
 use primitives::Vec3;
 
 /// g = clamp(a x − b, 0, 1), a and b.

@@ -27,7 +27,7 @@ use super::{
     Contact, ContactEffect, ContactLaw, Damping, Description, Effect, Elastic, Field, Key, Kind, Model,
     NormalLaw, OverlapLimit, Pair, RESTITUTION, Range, Response, Slot,
 };
-use crate::simd::Lane;
+use crate::simd::{Lane, cube_root};
 use core::f64::consts::PI;
 
 const WORK_OF_ADHESION: Key = Key {
@@ -196,19 +196,6 @@ impl Effect for Jkr {
     fn reach<R: Lane>(&self, radius: R, made: &R) -> R {
         Self::last_gap(radius, *made)
     }
-}
-
-/// x^(1/3) of a positive number: from x^(1/4 + 1/16), which is within a factor of 3 for 1e-21 < x < 1e21, by Halley's steps,
-/// each of which triples the digits.
-#[inline(always)]
-pub fn cube_root<R: Lane>(x: R) -> R {
-    let quarter = x.sqrt().sqrt();
-    let mut y = quarter * quarter.sqrt().sqrt();
-    for _ in 0..5 {
-        let cube = y * y * y;
-        y = y * (cube + x + x) / (cube + cube + x);
-    }
-    y
 }
 
 numbers!(Jkr { modulus: f64, work_of_adhesion: f64, scale: f64, damping: Damping });

@@ -39,7 +39,7 @@ pub use hertz::Hertz;
 pub use history::History;
 pub use hooke::Hooke;
 pub use hooke_direct::{Linear, MODULI, by_modulus};
-pub use jkr::{Jkr, cube_root};
+pub use jkr::Jkr;
 pub use law::ContactLaw;
 pub use material::{Compliance, Elastic, Material, OverlapLimit};
 pub use messages::{Dropped, needed};

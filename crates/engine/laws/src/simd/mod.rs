@@ -14,6 +14,7 @@ use alloc::vec::Vec;
 pub mod aligned;
 pub mod compiled;
 pub mod number;
+mod root;
 pub mod scalar;
 pub mod turn;
 pub mod two;
@@ -25,6 +26,7 @@ pub mod x86_single;
 
 pub use aligned::Aligned;
 pub use number::{FORCE, FORCE_AND_MOMENT, Layout, Number, Precision, TORQUE};
+pub use root::cube_root;
 pub use scalar::Each;
 pub use turn::Turn;
 pub use two::Two;
