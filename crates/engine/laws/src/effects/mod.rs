@@ -6,6 +6,7 @@
 
 mod capped_spring;
 mod cohesion;
+mod compositions;
 mod constant_rolling;
 mod contact_history;
 mod damping;
