@@ -114,7 +114,7 @@ fn jkr_books_the_area_of_its_hysteresis() {
 /// JKR becomes Hertz as w → 0.
 #[test]
 fn jkr_without_adhesion_is_hertz() {
-    let weak = Jkr { work_of_adhesion: 1e-15, ..jkr() };
+    let weak = Jkr::with_modulus(MODULUS, 1e-15, Damping::NONE);
     let overlap = 1e-4;
     let hertz = 4.0 / 3.0 * MODULUS * 0.01f64.sqrt() * f64::powf(overlap, 1.5);
     let got = response(weak, &still(overlap, 0.01, 0.0));

@@ -26,6 +26,26 @@ use primitives::Vec3;
 /// Numbers of history that a composition keeps at most.
 const COLUMNS: usize = 16;
 
+/// The block of a slot and its kind of contact; none where step `step` of a launch is not made, or ends here as there is no such kind.
+///
+/// # Safety
+/// Tables are in place and hold what they say.
+#[inline(always)]
+unsafe fn in_slot(t: &DeviceTables, step: u32, slot: usize) -> Option<(DeviceBlock, &DeviceKind)> {
+    // SAFETY: by contract.
+    unsafe {
+        if slot >= t.slot_count as usize || t.is_over(step) {
+            return None;
+        }
+        let block: DeviceBlock = *t.contacts.blocks.at(slot / BLOCK);
+        if block.kind >= t.lists.kind_count {
+            t.beyond(step);
+            return None;
+        }
+        Some((block, &*t.kinds.at(block.kind as usize)))
+    }
+}
+
 /// The contact in a slot, if its effects are `E`, number `composition` of the compositions; in step `step` of a launch.
 ///
 /// # Safety
@@ -35,14 +55,7 @@ pub unsafe fn contact<E: Effect>(t: &DeviceTables, composition: u32, step: u32, 
     const { assert!(E::HISTORY <= COLUMNS) };
     // SAFETY: by contract; this thread alone writes to the rows of its slot.
     unsafe {
-        if slot >= t.slot_count as usize || t.is_over(step) {
-            return;
-        }
-        let block: DeviceBlock = *t.contacts.blocks.at(slot / BLOCK);
-        if block.kind >= t.lists.kind_count {
-            return t.beyond(step);
-        }
-        let kind: &DeviceKind = &*t.kinds.at(block.kind as usize);
+        let Some((block, kind)) = in_slot(t, step, slot) else { return };
         let i: u32 = *t.contacts.i.at(slot);
         if kind.composition != composition || i >= t.particle_count {
             return;
@@ -128,14 +141,7 @@ pub unsafe fn contact<E: Effect>(t: &DeviceTables, composition: u32, step: u32, 
 pub unsafe fn made(t: &DeviceTables, step: u32, slot: usize) {
     // SAFETY: by contract.
     unsafe {
-        if slot >= t.slot_count as usize || t.is_over(step) {
-            return;
-        }
-        let block: DeviceBlock = *t.contacts.blocks.at(slot / BLOCK);
-        if block.kind >= t.lists.kind_count {
-            return t.beyond(step);
-        }
-        let kind: &DeviceKind = &*t.kinds.at(block.kind as usize);
+        let Some((block, kind)) = in_slot(t, step, slot) else { return };
         if kind.gap == 0.0 {
             return;
         }

@@ -113,8 +113,7 @@ impl Contacts {
         work.t.contacts.starts = c.starts.zeros::<u32>(work.device, count + 2)?;
         work.t.contacts.entries = c.entries.room::<u32>(work.device, 2 * slots)?;
         work.t.acts = self.acts.room::<u8>(work.device, slots)?;
-        let lasts = fixed.kinds.iter().any(|kind| kind.gap > 0.0);
-        work.t.made = self.made.room::<u8>(work.device, if lasts { slots } else { 0 })?;
+        work.t.made = self.made.room::<u8>(work.device, if fixed.lasts() { slots } else { 0 })?;
         work.t.lists.image = self.image.room::<u8>(work.device, self.slots.with_images())?;
         work.t.points = self.points.room::<Row>(work.device, self.slots.rows())?;
         work.t.forces = self.forces.room::<f64>(work.device, slots * model.layout().force())?;

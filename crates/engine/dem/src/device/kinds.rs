@@ -4,7 +4,7 @@ use crate::device::DeviceError;
 use crate::device::tables::Table;
 use crate::device::work::Work;
 use crate::model::{Kind, Model, With};
-use gpu::compositions::number;
+use gpu::compositions::{NAMES, number};
 use gpu::tables::{Address, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PARTICLES, PLANE, SPHERES};
 use laws::simd::Row4;
 
@@ -62,12 +62,19 @@ impl Fixed {
         Ok(())
     }
 
+    /// Whether any contact with wall spheres lasts beyond touching.
+    pub fn lasts(&self) -> bool {
+        self.kinds.iter().any(|kind| kind.gap > 0.0)
+    }
+
     /// Finds the kinds of contact and their classes, and the numbers of their effects.
     fn find_kinds(&mut self, t: &mut DeviceTables, model: &Model) -> Vec<f64> {
         let (mut classes, mut of_images, mut all) = (0, 0, Vec::new());
         self.kinds.clear();
         for kind in &model.kinds {
-            let (composition, numbers) = numbers_of(kind).unwrap_or_default();
+            // One that no device has is computed by no function.
+            let (composition, numbers) = numbers_of(kind).unwrap_or((NAMES.len(), Vec::new()));
+            let patch = kind.patch.filter(|p| p.shared);
             let columns = kind.composition.columns();
             let mut new = DeviceKind {
                 composition: composition as u32,
@@ -76,8 +83,8 @@ impl Fixed {
                 between: [u32::from(kind.between.0), u32::from(kind.between.1)],
                 class: classes,
                 columns: columns as u32,
-                patch: kind.patch.filter(|p| p.shared).map_or(0, |p| 1 + u32::from(p.hertz)),
-                gap: kind.patch.filter(|p| p.shared).map_or(0.0, |p| p.gap),
+                patch: patch.map_or(0, |p| 1 + u32::from(p.hertz)),
+                gap: patch.map_or(0.0, |p| p.gap),
                 flips: (0..columns).map(|c| u32::from(kind.composition.flips(c)) << c).sum(),
                 ..DeviceKind::default()
             };

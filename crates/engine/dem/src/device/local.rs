@@ -36,15 +36,17 @@ type Contacts = unsafe fn(&DeviceTables, u32, u32, usize);
 
 macro_rules! functions {
     ($($name:tt $effects:ty;)*) => {
+        /// Those of the compositions.
+        const COMPOSITIONS: [Contacts; NAMES.len()] = [$(gpu::threads::contact::<$effects>),*];
+
         /// The thread of a function by its number, in [`crate::device::functions`].
         ///
         /// # Safety
         /// As [`gpu::threads::contact`] and [`particle`] say.
         unsafe fn thread(function: usize, tables: &DeviceTables, step: u32, thread: usize) {
-            let compositions: [Contacts; NAMES.len()] = [$(gpu::threads::contact::<$effects>),*];
             // SAFETY: by contract.
             unsafe {
-                match compositions.get(function) {
+                match COMPOSITIONS.get(function) {
                     Some(contacts) => contacts(tables, function as u32, step, thread),
                     _ if function == MADE => made(tables, step, thread),
                     _ if function == MOVES => particle::<false>(tables, step, thread),

@@ -241,9 +241,8 @@ impl Stepper {
     ) -> Result<Found, DeviceError> {
         let moves = MOVES + self.tables.rotates as usize;
         // Contacts that last beyond touching are looked at before any of them changes.
-        let lasts = self.lister.fixed.kinds.iter().any(|kind| kind.gap > 0.0);
-        let functions: Vec<usize> =
-            lasts.then_some(MADE).into_iter().chain(self.compositions.clone()).collect();
+        let made = self.lister.fixed.lasts().then_some(MADE);
+        let functions: Vec<usize> = made.into_iter().chain(self.compositions.iter().copied()).collect();
         let (mut done, start) = (0, Instant::now());
         // From here on the device is ahead.
         self.held = None;

@@ -103,7 +103,7 @@ pub struct Jkr {
     /// w [J/m²].
     pub work_of_adhesion: f64,
     /// a_c for R* = 1 m, (πw/8E*)^(1/3) [m^(1/3)].
-    pub scale: f64,
+    scale: f64,
     /// γ √(5/6), γ as for [`super::Hooke`].
     pub damping: Damping,
 }
