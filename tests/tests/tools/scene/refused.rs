@@ -49,6 +49,23 @@ const MATERIALS_AND_FILLS: &[Change] = &[
 
 const PAIRS_OF_CONTACTS_AND_BONDS: &[Change] = &[
     wrong(
+        "sliding_friction = 0.5",
+        "sliding_friction = \"0.5\"",
+        &["write it without quotes, or add a unit"],
+    ),
+    wrong(
+        "[[fill]]",
+        "[[clump]]\nname = \"c\"\nmaterial = \"sinter\"\nmesh = \"c.ply\"\nvertex_radius = 0.001\nmass = \"sum\"\n[[fill]]",
+        &["clump.0.mass = \"sum\"", "a mesh has its own volume"],
+    ),
+    wrong(
+        "[[wall]]",
+        "[[wall]]\nname = \"floor\"\nplane = \"0,0,-0.02,0,0,1\"\nmaterial = \"steel\"\n[[wall]]\nname = \"lid\"\n\
+         plane = \"0,0,0.12,0,0,-1\"\nmaterial = \"steel\"\nservo = { direction = [0, 0, -1], stress = 1000, \
+         area_between = [[\"floor\", \"lid\"], 0.1], speed_limit = 1 }\n[[wall]]",
+        &["wall.1.servo.area_between = \"floor\"", "is the name of several walls"],
+    ),
+    wrong(
         "\"sinter\", \"*\"",
         "\"sinter\", \"*\", \"stele\"",
         &["s.toml:14:11", "wrong number of values: 3", "2 names"],

@@ -1,7 +1,7 @@
 //! Walls that follow a force or a stress.
 
 use super::table::table;
-use super::value::{KeyUnit, KeyValue, begins_as_number};
+use super::value::{KeyUnit, KeyValue, begins_as_number, exactly};
 use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use std::fmt;
 
@@ -65,9 +65,7 @@ impl KeyValue for [Side; 2] {
     }
 
     fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<[Side; 2], D::Error> {
-        let sides = Vec::<Side>::read(unit, from)?;
-        let count = sides.len();
-        sides.try_into().map_err(|_| D::Error::invalid_length(count, &"a list of 2"))
+        exactly(unit, "a list of 2", from)
     }
 
     fn numbers(&self) -> Vec<f64> {

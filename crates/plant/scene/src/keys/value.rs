@@ -201,17 +201,25 @@ plain_values! {
     toml::Value, "list or text or table";
 }
 
-/// Exactly two: what comes after them would be lost.
 impl KeyValue for [String; 2] {
     fn kind() -> String {
         "2 names".to_owned()
     }
 
     fn read<'de, D: Deserializer<'de>>(unit: KeyUnit, from: D) -> Result<[String; 2], D::Error> {
-        let names = Vec::<String>::read(unit, from)?;
-        let count = names.len();
-        names.try_into().map_err(|_| D::Error::invalid_length(count, &"a list of 2 names"))
+        exactly(unit, "a list of 2 names", from)
     }
+}
+
+/// Reads a list of so many values, and of no more.
+pub(super) fn exactly<'de, T: KeyValue, D: Deserializer<'de>, const N: usize>(
+    unit: KeyUnit,
+    expected: &'static str,
+    from: D,
+) -> Result<[T; N], D::Error> {
+    let values = Vec::<T>::read(unit, from)?;
+    let count = values.len();
+    values.try_into().map_err(|_| D::Error::invalid_length(count, &expected))
 }
 
 /// Whole numbers.
