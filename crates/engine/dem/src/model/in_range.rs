@@ -87,7 +87,7 @@ pub fn magnitudes(unit: &str) -> [f64; 2] {
         "Pa" => [1e-9, 1e35],
         "N/m" => [1e-9, 1e18],
         "Pa/m" => [1e-6, 1e38],
-        "kg/m³" => [0.0, 1e30],
+        "kg/m³" => [f64::MIN_POSITIVE, 1e30],
         "" | "[–]" | "m/s²" | "Pa·s" => [1e-12, 1e12],
         _ => [f64::MIN_POSITIVE, 1e18],
     }

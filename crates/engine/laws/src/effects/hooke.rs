@@ -47,6 +47,9 @@ pub const TANGENTIAL_STIFFNESS: Key = Key {
     doc: "k_t, instead of `tangential_ratio`",
 };
 
+/// Keys that give k_t: without sliding friction nothing has it.
+pub const TANGENTIAL: [&str; 2] = [TANGENTIAL_RATIO.name, TANGENTIAL_STIFFNESS.name];
+
 /// k_t is given once.
 pub fn contradiction(law: &ContactLaw) -> Option<Contradiction> {
     let both = law.number(TANGENTIAL_RATIO.name).and(law.number(TANGENTIAL_STIFFNESS.name));

@@ -38,7 +38,7 @@ pub use describe::*;
 pub use friction::Friction;
 pub use hertz::Hertz;
 pub use history::History;
-pub use hooke::Hooke;
+pub use hooke::{Hooke, TANGENTIAL};
 pub use hooke_direct::{Linear, MODULI, by_modulus};
 pub use jkr::Jkr;
 pub use law::ContactLaw;

@@ -100,8 +100,9 @@ impl Check<'_> {
             self.one_of(&key("strength_ratio"), &[tension, shear].concat())?;
         }
         let breaks = pulled || sheared || pulled_by || sheared_by;
+        // 0 asks for nothing, so that a sweep may begin there.
         let steep = b.friction_angle.unwrap_or(0.0);
-        if b.friction_angle.is_some() && !(sheared || sheared_by || b.strength_ratio.is_some()) {
+        if steep != 0.0 && !(sheared || sheared_by || b.strength_ratio.is_some()) {
             let (why, cure) =
                 ("there is no shear strength that pressure could add to", "add one, or take it out");
             return Err(self.wrong(&key("friction_angle"), format!("{steep} rad"), why, cure));
@@ -117,7 +118,12 @@ impl Check<'_> {
             return Err(self.wrong(&key("deviation"), "(given)", why, cure));
         }
         let rules = [
-            ("deviation", b.deviation.is_some(), breaks, "the bonds have no strength"),
+            (
+                "deviation",
+                b.deviation.is_some_and(|deviation| deviation != 0.0),
+                breaks,
+                "the bonds have no strength",
+            ),
             ("weibull_modulus", b.weibull_modulus.is_some(), breaks, "the bonds have no strength"),
             (
                 "reference_radius",

@@ -3,6 +3,7 @@
 use super::Check;
 use crate::error::Result;
 use crate::keys::{Clump, ClumpMass, ClumpMoments, SceneKeys};
+use geom::Shown;
 
 impl Check<'_> {
     /// `[[clump]]`.
@@ -25,9 +26,18 @@ impl Check<'_> {
         }
         let values = m.tensor().symmetric_eigenvalues();
         if !(values.min() > 0.0 && values.sum() > 2.0 * values.max()) {
-            let value = format!("{:?} m⁵", m.inertia);
+            let value = format!("[{}] m⁵", m.inertia.map(|term| Shown(term).to_string()).join(", "));
+            let mut principal: [f64; 3] = values.into();
+            principal.sort_by(f64::total_cmp);
+            let [least, middle, most] = principal.map(Shown);
+            let of =
+                format!("no body has these moments: the principal ones are {least}, {middle} and {most} m⁵");
+            let why = match principal[0] > 0.0 {
+                true => format!("{of}, and the last is not below the sum of the other two"),
+                false => format!("{of}, and the first is not above 0"),
+            };
             let cure = "give xx, yy, zz, xy, xz, yz about the centre of mass, for density 1, as stone-clump writes them";
-            return Err(self.wrong(&format!("{key}.inertia"), value, "no body has these moments", cure));
+            return Err(self.wrong(&format!("{key}.inertia"), value, &why, cure));
         }
         Ok(())
     }

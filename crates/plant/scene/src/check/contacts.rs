@@ -3,7 +3,7 @@
 use super::Check;
 use crate::error::Result;
 use crate::keys::{Contact, SceneKeys};
-use dem::effects::{DESCRIPTIONS, Description, Key, MODULI, Slot, active};
+use dem::effects::{DESCRIPTIONS, Description, Key, MODULI, Slot, TANGENTIAL, active};
 
 impl Check<'_> {
     pub(super) fn contacts(&self, m: &SceneKeys) -> Result<()> {
@@ -11,6 +11,7 @@ impl Check<'_> {
             let entry = Entry { check: self, at: format!("contact.{i}"), contact: c };
             entry.stiffness()?;
             entry.foreign()?;
+            entry.tangential()?;
             active(&c.law).try_for_each(|effect| entry.effect(effect))?;
         }
         Ok(())
@@ -49,7 +50,7 @@ impl Entry<'_> {
         if speed.is_none() {
             return Ok(());
         }
-        let laws: Vec<String> = DESCRIPTIONS.iter().filter(|d| linear(d)).map(|d| asks(d)).collect();
+        let laws = each_once(DESCRIPTIONS.iter().filter(|d| linear(d)).map(|d| asks(d)));
         let cure = format!("take it out, or use {}", laws.join(" or "));
         let why = "this law takes its stiffness from young and poisson";
         self.wrong("characteristic_velocity", "(given)", why, &cure)
@@ -63,24 +64,38 @@ impl Entry<'_> {
         let models =
             law.models().map(|(key, _)| key).filter(|key| !active(law).any(|d| model(d) == Some(key)));
         let Some(key) = numbers.chain(models).next() else { return Ok(()) };
-        // Of the effects that take it, those that the same value of the key asks for.
+        // Of the effects that take it, those that the same value of the key asks for, and that the numbers of this entry pick.
         let owners = DESCRIPTIONS.iter().filter(|d| {
-            d.model.is_some_and(|m| law.model(key) == Some(m.value)) || takes(std::iter::once(**d), key)
+            let asked = d.model.is_some_and(|m| law.model(key) == Some(m.value));
+            (asked || takes(std::iter::once(**d), key)) && (d.picked)(law)
         });
         let lacks = |d: &&Description| {
             let model = d.model.filter(|m| !m.default && law.model(m.key) != Some(m.value));
             let mut missing: Vec<String> =
                 model.iter().map(|m| format!("{} = \"{}\"", m.key, m.value)).collect();
             let numbers = d.keys.iter().filter(|k| k.required && law.number(k.name).is_none());
-            let number = |k: &Key| format!("{} = {} {}", k.name, k.example, k.unit).trim_end().to_owned();
-            missing.extend(numbers.map(number));
+            missing.extend(numbers.map(written));
             missing.join(" and ")
         };
-        let mut cures: Vec<String> = owners.map(lacks).filter(|cure| !cure.is_empty()).collect();
-        cures.dedup();
-        let cure = format!("add {}, or take {key} out", cures.join(", or "));
+        let cures = each_once(owners.map(lacks).filter(|cure| !cure.is_empty()));
+        let cure = match cures[..] {
+            [] => format!("take {key} out"),
+            _ => format!("add {}, or take {key} out", cures.join(", or ")),
+        };
         let asked = active(law).map(|d| d.name).collect::<Vec<_>>().join(", ");
         self.wrong(key, "(given)", &format!("nothing in this [[contact]] uses it ({asked})"), &cure)
+    }
+
+    /// Keys of the spring across the normal, which sliding friction alone has; friction of 0 keeps it, so that a sweep may begin there.
+    fn tangential(&self) -> Result<()> {
+        let law = &self.contact.law;
+        let Some(key) = TANGENTIAL.into_iter().find(|key| law.number(key).is_some()) else { return Ok(()) };
+        if active(law).any(|d| d.slot == Slot::Sliding) {
+            return Ok(());
+        }
+        let friction = Slot::Sliding.key();
+        let why = format!("is the spring of {friction}, and this [[contact]] has none");
+        self.wrong(key, "(given)", &why, &format!("add {friction} = 0.5, or take {key} out"))
     }
 
     fn effect(&self, effect: &Description) -> Result<()> {
@@ -89,9 +104,7 @@ impl Entry<'_> {
             let Some(value) = law.number(key.name) else {
                 if key.required && key.name != "stiffness" {
                     let why = format!("{} needs it ({})", asks(effect), key.doc);
-                    let unit = if key.unit.is_empty() { String::new() } else { format!(" in {}", key.unit) };
-                    let cure = format!("add {} = {}{unit}", key.name, key.example);
-                    return self.wrong(key.name, "(absent)", &why, &cure);
+                    return self.wrong(key.name, "(absent)", &why, &format!("add {}", written(key)));
                 }
                 continue;
             };
@@ -126,6 +139,23 @@ impl Entry<'_> {
         let why = format!("acts on grains that turn, and nothing turns them without {}", slot.key());
         self.wrong(key, &value, &why, &format!("add {}, such as 0.5, or take {key} out", slot.key()))
     }
+}
+
+/// A key with a number as a scene has it; the unit stands behind it, where TOML has no place for it.
+fn written(key: &Key) -> String {
+    let unit = if key.unit.is_empty() { String::new() } else { format!(" (in {})", key.unit) };
+    format!("{} = {}{unit}", key.name, key.example)
+}
+
+/// Words without those that came before.
+fn each_once(words: impl Iterator<Item = String>) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for word in words {
+        if !all.contains(&word) {
+            all.push(word);
+        }
+    }
+    all
 }
 
 fn takes(mut effects: impl Iterator<Item = &'static Description>, key: &str) -> bool {

@@ -12,12 +12,17 @@ mod materials;
 mod particles;
 mod servo;
 mod walls;
+mod zones;
 
 use crate::error::{Result, SceneError, ValueError, nearest, shown};
 use crate::keys::{Judge, Key, Range, SceneKeys, Table};
 use crate::text::Text;
 use dem::setup::Material;
+use geom::Shown;
 use std::fmt::Display;
+
+/// How far the length of what has length 1 may be off [–]: 0.707 is written for √½.
+const ROUNDED: f64 = 1e-3;
 
 /// Refuses values, naming key, value, unit and cure.
 pub struct Check<'a> {
@@ -42,6 +47,7 @@ impl Judge for Check<'_> {
             }
             Range::AtLeast(low) => each(low, f64::INFINITY),
             Range::AboveZeroUpTo(high) => positive().and_then(|()| each(0.0, high)),
+            Range::UnitLength => self.unit_length(at, numbers, key.default),
             Range::Poisson => numbers.iter().try_for_each(|v| self.poisson(at, *v)),
             Range::Pair => {
                 positive()?;
@@ -59,6 +65,14 @@ impl Judge for Check<'_> {
                 }
             }
         }
+    }
+
+    fn once(&self, at: &str, words: &[&str]) -> Result<()> {
+        let again = (1..words.len()).find(|k| words[..*k].contains(&words[*k]));
+        again.map_or(Ok(()), |k| {
+            let value = format!("\"{}\"", words[k]);
+            Err(self.wrong(&format!("{at}.{k}"), value, "is in the list twice", "leave one of them out"))
+        })
     }
 
     fn name(&self, key: &str, name: &str) -> Result<()> {
@@ -86,6 +100,11 @@ impl Check<'_> {
         let Some(value) = value.into().filter(|v| !(*v > 0.0 && (least..=most).contains(v))) else {
             return Ok(());
         };
+        if value > most && value.is_finite() && least <= f64::MIN_POSITIVE {
+            let cure = format!("give a number above 0, up to {} {unit}", Shown(most));
+            let value = format!("{} {unit}", shown(value));
+            return Err(self.wrong(key, value.trim_end(), "is outside the range", cure.trim_end()));
+        }
         if value > 0.0 && value.is_finite() {
             return self.within(key, value, least, most, unit);
         }
@@ -100,15 +119,15 @@ impl Check<'_> {
         }
         let space = if unit.is_empty() { "" } else { " " };
         let cure = match high {
-            f64::INFINITY => format!("give {} or more{space}{unit}", geom::Shown(low)),
-            _ => format!("give {} to {}{space}{unit}", geom::Shown(low), geom::Shown(high)),
+            f64::INFINITY => format!("give {} or more{space}{unit}", Shown(low)),
+            _ => format!("give {} to {}{space}{unit}", Shown(low), Shown(high)),
         };
         Err(self.wrong(key, format!("{} {unit}", shown(value)).trim_end(), "is outside the range", &cure))
     }
 
     /// The error for a number that is not between two, with the reason, and one that is.
     fn not_between(&self, at: &str, value: f64, range: [f64; 2], (why, such): (&str, &str)) -> SceneError {
-        let [low, high] = range.map(geom::Shown);
+        let [low, high] = range.map(Shown);
         let why = format!("is not between {low} and {high}{}{why}", if why.is_empty() { "" } else { ": " });
         self.wrong(at, shown(value), &why, &format!("give a number between {low} and {high}, such as {such}"))
     }
@@ -121,6 +140,31 @@ impl Check<'_> {
             return self.within(key, *worst, -most, most, unit);
         }
         Err(self.wrong(key, format!("{value:?} {unit}"), "must be finite", "give numbers"))
+    }
+
+    /// Numbers of length 1, which a digit or two may miss: another length is most often another mistake.
+    fn unit_length(&self, key: &str, numbers: &[f64], such: &str) -> Result<()> {
+        let length = numbers.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if (length - 1.0).abs() <= ROUNDED {
+            return Ok(());
+        }
+        let list = |factor: f64| numbers.iter().map(|x| Shown(x * factor).to_string()).collect::<Vec<_>>();
+        let cure = match length.is_normal() {
+            true => format!("give [{}]", list(length.recip()).join(", ")),
+            false => format!("give numbers such as {}", such.replace(".0", "")),
+        };
+        let why = format!("has the length {}, and an orientation has 1", Shown(length));
+        Err(self.wrong(key, format!("[{}]", list(1.0).join(", ")), &why, &cure))
+    }
+
+    /// A vector that is long enough to give a direction.
+    pub(crate) fn direction(&self, key: &str, vector: [f64; 3], such: &str) -> Result<()> {
+        if vector.iter().any(|x| x.abs() >= dem::magnitudes("")[0]) {
+            return Ok(());
+        }
+        let why = if vector == [0.0; 3] { "has no direction" } else { "is too short to give a direction" };
+        let [x, y, z] = vector.map(Shown);
+        Err(self.wrong(key, format!("[{x}, {y}, {z}]"), why, &format!("give a direction, {such}")))
     }
 
     /// One and only one of several keys.
@@ -161,8 +205,7 @@ impl Check<'_> {
             None if by_itself => Ok(()),
             None => Err(self.wrong(&key, value, "repeats what never ends", &format!("add {entry}.until"))),
             Some(until) if period < until - from => {
-                let why =
-                    format!("is shorter than the {} s from 'from' to 'until'", geom::Shown(until - from));
+                let why = format!("is shorter than the {} s from 'from' to 'until'", Shown(until - from));
                 Err(self.wrong(&key, value, &why, "give a longer period, or an earlier 'until'"))
             }
             Some(_) => Ok(()),
@@ -178,7 +221,8 @@ impl Check<'_> {
         self.bonds(m)?;
         self.clumps(m)?;
         self.particles(m)?;
-        self.walls(m)
+        self.walls(m)?;
+        self.outlets(m)
     }
 
     /// Poisson's ratio of a material or of bonds.

@@ -36,6 +36,11 @@ impl Check<'_> {
     fn particle(&self, entry: &str, given: &GrainKeys) -> Result<()> {
         let key = |k: &str| format!("{entry}.{k}");
         let (diameter, material) = (given.diameter.is_some(), given.material.is_some());
+        if given.by.is_some() && given.sizes.is_none() {
+            let why = "only shares of sizes are by mass or number";
+            let cure = if given.clump.is_some() { "take it out" } else { "take it out, or give sizes" };
+            return Err(self.wrong(&key("by"), "(given)", why, cure));
+        }
         if given.clump.is_some() {
             let keys = [("material", material), ("diameter", diameter), ("sizes", given.sizes.is_some())];
             if let Some((name, _)) = keys.iter().find(|k| k.1) {
@@ -57,15 +62,6 @@ impl Check<'_> {
         if !material && !has_materials(given.sizes) {
             let (value, why) = ("(without material)", "material is missing");
             return Err(self.wrong(entry, value, why, "add it, or the name of a clump"));
-        }
-        if given.by.is_some() && given.sizes.is_none() {
-            let cure = "take it out, or give sizes";
-            return Err(self.wrong(
-                &key("by"),
-                "(given)",
-                "only shares of sizes are by mass or number",
-                cure,
-            ));
         }
         if given.scale.is_some() {
             let cure = "use diameter, or add clump = \"…\"";

@@ -4,10 +4,30 @@ use super::Check;
 use crate::error::Result;
 use crate::keys::{Motion, OneOrMore, Path, Place, Rotate, SceneKeys, Wall};
 use geom::units;
+use std::collections::BTreeMap;
 
 impl Check<'_> {
     pub(super) fn walls(&self, m: &SceneKeys) -> Result<()> {
-        m.wall.iter().enumerate().try_for_each(|(i, w)| self.wall(&format!("wall.{i}"), w))
+        m.wall.iter().enumerate().try_for_each(|(i, w)| self.wall(&format!("wall.{i}"), w))?;
+        self.wall_names(&m.wall)
+    }
+
+    /// Results, servos and stages name walls, and faces of boxes: no two have one name.
+    fn wall_names(&self, walls: &[Wall]) -> Result<()> {
+        let mut known: BTreeMap<String, usize> = BTreeMap::new();
+        for (i, wall) in walls.iter().enumerate() {
+            let (key, name) = (format!("wall.{i}.name"), wall.name_at(i));
+            for own in wall.names(&name) {
+                let Some(other) = known.insert(own.clone(), i) else { continue };
+                let at = self.text.place(&format!("wall.{other}.name"));
+                let why = match own == name {
+                    true => format!("is a name of wall.{other} ({at}), too"),
+                    false => format!("gives a face the name \"{own}\", which wall.{other} ({at}) has, too"),
+                };
+                return Err(self.wrong(&key, format!("\"{name}\""), &why, "give every wall its own name"));
+            }
+        }
+        Ok(())
     }
 
     fn wall(&self, entry: &str, w: &Wall) -> Result<()> {
@@ -81,9 +101,9 @@ impl Check<'_> {
             return Err(self.wrong(&format!("{entry}.scale"), "(given)", why, "give scale or units"));
         }
         let Some(name) = units else { return Ok(()) };
-        units::factor(name, "m").map(drop).map_err(|e| {
-            let cure = "write \"mm\", \"cm\", \"m\", \"in\" or \"ft\"";
-            self.wrong(&format!("{entry}.units"), format!("\"{name}\""), &e.to_string(), cure)
+        units::factor(name, "m").map(drop).map_err(|_| {
+            let cure = "write \"mm\", \"cm\", \"m\", \"km\", \"µm\", \"in\" or \"ft\"";
+            self.wrong(&format!("{entry}.units"), format!("\"{name}\""), "is no unit of length", cure)
         })
     }
 
@@ -179,13 +199,5 @@ impl Check<'_> {
             ));
         }
         Ok(())
-    }
-
-    /// A vector of any length but 0.
-    pub(super) fn direction(&self, key: &str, vector: [f64; 3], such: &str) -> Result<()> {
-        match vector == [0.0; 3] {
-            true => Err(self.wrong(key, "[0, 0, 0]", "has no direction", such)),
-            false => Ok(()),
-        }
     }
 }

@@ -67,7 +67,7 @@ table! {
         /// Centre of mass.
         position: [f64; 3] = required, "m", Finite, "[0, 0, 0.1]";
         /// Orientation w, x, y, z.
-        quaternion: [f64; 4] = default([1.0, 0.0, 0.0, 0.0]), "", Any, "[0, 0, 0, 1]";
+        quaternion: [f64; 4] = default([1.0, 0.0, 0.0, 0.0]), "", UnitLength, "[0, 0, 0, 1]";
         /// Velocity of the centre of mass.
         velocity: [f64; 3] = absent("0"), "m/s", Finite, "[0, 0, -1]";
         /// Angular velocity.

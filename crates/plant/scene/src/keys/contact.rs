@@ -2,6 +2,7 @@
 
 use super::table::{OneOf, REQUIRED, Row, TableShape};
 use super::value::{In, KeyUnit, KeyValue, Word, begins_as_number, quoted};
+use super::whole::whole_as_number;
 use dem::effects::{DESCRIPTIONS, Description, Key, NORMAL_DAMPING, RESTITUTION, keys, models};
 use dem::setup::ContactLaw;
 use serde::de::{self, DeserializeSeed, Deserializer, Error, MapAccess, Unexpected, Visitor};
@@ -22,6 +23,11 @@ pub struct Contact {
 /// Keys of a `[[contact]]` that are not the engine's.
 const BETWEEN: &str = "between";
 const CHARACTERISTIC_VELOCITY: &str = "characteristic_velocity";
+
+/// A `[[contact]]` in one line.
+const EXAMPLE: &str = "{ between = [\"*\", \"*\"], restitution = 0.5 }";
+/// Two materials.
+const PAIR: &str = "[\"*\", \"*\"]";
 
 /// Every key of a `[[contact]]`, in the order of the effects.
 static KEYS: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
@@ -84,8 +90,7 @@ fn rows() -> Vec<Row> {
             ..text(key.name, &kind, &default, key.doc, key.example)
         }
     };
-    let between =
-        text(BETWEEN, "2 names", REQUIRED, "Names of two materials; \"*\" stands for any", "[\"*\", \"*\"]");
+    let between = text(BETWEEN, "2 names", REQUIRED, "Names of two materials; \"*\" stands for any", PAIR);
     let speed = "Instead of `stiffness`: the speed of impact at which two of the largest grains store as much as with \"hertz\"";
     let speed = text(CHARACTERISTIC_VELOCITY, "number", "–", speed, "1");
     let speed = Row { unit: "m/s", range: "above 0".to_owned(), ..speed };
@@ -116,7 +121,7 @@ impl KeyValue for Contact {
     }
 
     fn table() -> Option<TableShape> {
-        Some(TableShape { name: "Contact", section: true, rows: rows() })
+        Some(TableShape { name: "Contact", section: true, example: EXAMPLE.to_owned(), rows: rows() })
     }
 
     fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<Contact, D::Error> {
@@ -130,7 +135,7 @@ impl<'de> Visitor<'de> for ContactVisitor {
     type Value = Contact;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("struct Contact")
+        write!(f, "a table, such as {EXAMPLE}")
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Contact, A::Error> {
@@ -138,7 +143,7 @@ impl<'de> Visitor<'de> for ContactVisitor {
         let mut law = ContactLaw::new((0, 0), "hertz");
         while let Some(key) = map.next_key_seed(OneOf(&KEYS))? {
             if key == BETWEEN {
-                between = Some(map.next_value_seed(In::<[String; 2]>::new(KeyUnit::of("")))?);
+                between = Some(map.next_value_seed(In::<[String; 2]>::new(KeyUnit::of_key("", PAIR)))?);
             } else if key == CHARACTERISTIC_VELOCITY {
                 characteristic_velocity = Some(map.next_value_seed(number("m/s"))?);
             } else if let Some((key, values)) = models().into_iter().find(|m| m.0 == key) {
@@ -190,9 +195,7 @@ impl<'de> Visitor<'de> for Numbers<'_> {
         Ok(())
     }
 
-    fn visit_i64<E: Error>(self, value: i64) -> Result<(), E> {
-        self.visit_f64(value as f64)
-    }
+    whole_as_number! { () }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<(), E> {
         if !begins_as_number(text) {

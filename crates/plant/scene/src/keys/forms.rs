@@ -1,7 +1,8 @@
 //! Values that may be written in two ways: a share, a word or a truth value, one table or a list of them.
 
-use super::table::{Judge, Key, Table, TableShape, TableVisitor};
+use super::table::{Judge, Key, Table, TableShape, TableVisitor, example};
 use super::value::{In, KeyUnit, KeyValue};
+use super::whole::whole_as_number;
 use super::{Accuracy, EnergyGuard};
 use crate::error::Result as Checked;
 use dem::setup::CameBack;
@@ -37,9 +38,7 @@ impl Visitor<'_> for Share {
         Ok(Accuracy(v))
     }
 
-    fn visit_i64<E: Error>(self, v: i64) -> Result<Accuracy, E> {
-        self.visit_f64(v as f64)
-    }
+    whole_as_number! { Accuracy }
 
     fn visit_str<E: Error>(self, v: &str) -> Result<Accuracy, E> {
         // Units keep the digits: 0.0000001 % is 1e-9, and its number over 100 is less.
@@ -113,9 +112,7 @@ impl Visitor<'_> for ShareOrOff {
         Ok(EnergyGuard::Share(v))
     }
 
-    fn visit_i64<E: Error>(self, v: i64) -> Result<EnergyGuard, E> {
-        self.visit_f64(v as f64)
-    }
+    whole_as_number! { EnergyGuard }
 
     fn visit_str<E: Error>(self, v: &str) -> Result<EnergyGuard, E> {
         let share = geom::units::parse(v, "").map(EnergyGuard::Share);
@@ -170,7 +167,7 @@ impl<'de, T: Table> Visitor<'de> for TableOrList<T> {
     type Value = Vec<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a table, or a list of tables")
+        write!(f, "a table, or a list of tables, such as {}", example(T::KEYS))
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vec<T>, A::Error> {

@@ -20,6 +20,7 @@ mod servo;
 mod table;
 mod value;
 mod wall;
+mod whole;
 mod zones;
 
 pub use bond::*;
@@ -37,7 +38,7 @@ pub use sections::{Section, reference, rows, sections};
 pub use servo::*;
 pub use table::Row;
 pub(crate) use table::{Judge, Key, Range, Table};
-pub(crate) use value::KeyValue;
+pub(crate) use value::{KeyValue, TABLES};
 pub use wall::*;
 pub use zones::*;
 

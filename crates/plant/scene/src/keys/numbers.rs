@@ -1,8 +1,9 @@
 //! Values that are made of numbers: one, several, a range, a number or a word.
 
 use super::value::{KeyUnit, KeyValue, begins_as_number};
+use super::whole::whole_as_number;
 use super::{Every, OneOrRange, OrAuto};
-use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
+use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use std::fmt;
 
 /// Reads one number.
@@ -27,9 +28,7 @@ impl Visitor<'_> for Number {
         Ok(v)
     }
 
-    fn visit_i64<E: Error>(self, v: i64) -> Result<f64, E> {
-        Ok(v as f64)
-    }
+    whole_as_number! { f64 }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<f64, E> {
         self.0.parse(text)
@@ -57,7 +56,12 @@ impl<'de, const N: usize> Visitor<'de> for Numbers<N> {
     type Value = [f64; N];
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        self.0.expecting(f, &format!("a list of {N} numbers"))
+        let such = match self.0.example {
+            // A list in a list, or one of two ways to write a value.
+            "" => format!("[{}]", ["0.5"; N].join(", ")),
+            given => given.to_owned(),
+        };
+        self.0.expecting_such(f, &format!("a list of {N} numbers"), &such)
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<[f64; N], A::Error> {
@@ -66,10 +70,11 @@ impl<'de, const N: usize> Visitor<'de> for Numbers<N> {
             *number =
                 seq.next_element_seed(Number(self.0))?.ok_or_else(|| A::Error::invalid_length(k, &self))?;
         }
-        match seq.next_element_seed(Number(self.0))? {
-            None => Ok(numbers),
-            Some(_) => Err(A::Error::invalid_length(N + 1, &self)),
+        let mut count = N;
+        while seq.next_element::<IgnoredAny>()?.is_some() {
+            count += 1;
         }
+        if count == N { Ok(numbers) } else { Err(A::Error::invalid_length(count, &self)) }
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<[f64; N], E> {
@@ -117,9 +122,7 @@ impl<'de, T: Copy> Visitor<'de> for NumberOr<T> {
         Ok((self.number)(v))
     }
 
-    fn visit_i64<E: Error>(self, v: i64) -> Result<T, E> {
-        self.visit_f64(v as f64)
-    }
+    whole_as_number! { T }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<T, E> {
         match self.word {
@@ -133,7 +136,7 @@ impl<'de, T: Copy> Visitor<'de> for NumberOr<T> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<T, A::Error> {
         match self.range {
-            Some(range) => Numbers::<2>(self.unit).visit_seq(seq).map(range),
+            Some(range) => Numbers::<2>(self.unit.within()).visit_seq(seq).map(range),
             None => Err(A::Error::invalid_type(serde::de::Unexpected::Seq, &self)),
         }
     }

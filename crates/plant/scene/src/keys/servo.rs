@@ -2,6 +2,7 @@
 
 use super::table::table;
 use super::value::{KeyUnit, KeyValue, begins_as_number, exactly};
+use super::whole::whole_as_number;
 use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use std::fmt;
 
@@ -88,9 +89,7 @@ impl<'de> Visitor<'de> for SideVisitor {
         Ok(Side::Length(v))
     }
 
-    fn visit_i64<E: Error>(self, v: i64) -> Result<Side, E> {
-        self.visit_f64(v as f64)
-    }
+    whole_as_number! { Side }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<Side, E> {
         if !begins_as_number(text) {

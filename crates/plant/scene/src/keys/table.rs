@@ -30,6 +30,8 @@ pub enum Range {
     AtLeast(f64),
     /// Above 0, up to this.
     AboveZeroUpTo(f64),
+    /// Numbers whose squares have the sum 1, up to rounding.
+    UnitLength,
     /// Of Poisson's ratio.
     Poisson,
     /// A name without control characters: it goes into scripts and tables.
@@ -48,6 +50,7 @@ impl fmt::Display for Range {
             }
             Range::AtLeast(low) => write!(f, "{} or more", geom::Shown(*low)),
             Range::AboveZeroUpTo(high) => write!(f, "above 0, up to {}", geom::Shown(*high)),
+            Range::UnitLength => f.write_str("of length 1"),
             Range::Poisson => f.write_str(record::POISSON),
             Range::Name => f.write_str("without control characters"),
         }
@@ -82,6 +85,12 @@ pub trait Judge {
     /// # Errors
     /// The first that is not.
     fn numbers(&self, at: &str, key: &Key, numbers: &[f64]) -> Result<()>;
+
+    /// Whether each word of a list is there once.
+    ///
+    /// # Errors
+    /// The first that was there before.
+    fn once(&self, at: &str, words: &[&str]) -> Result<()>;
 
     /// Whether a text may be a name.
     ///
@@ -149,6 +158,8 @@ pub struct TableShape {
     pub name: &'static str,
     /// Whether people read about it in a separate section; otherwise with the key that holds it.
     pub section: bool,
+    /// It in TOML, with the keys that it must have, or the first one.
+    pub example: String,
     /// Its keys.
     pub rows: Vec<Row>,
 }
@@ -183,7 +194,8 @@ impl<T: Table> KeyValue for T {
     }
 
     fn table() -> Option<TableShape> {
-        Some(TableShape { name: T::NAME, section: T::SECTION, rows: T::KEYS.iter().map(Row::from).collect() })
+        let rows = T::KEYS.iter().map(Row::from).collect();
+        Some(TableShape { name: T::NAME, section: T::SECTION, example: example(T::KEYS), rows })
     }
 
     fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<T, D::Error> {
@@ -195,13 +207,27 @@ impl<T: Table> KeyValue for T {
     }
 }
 
+/// A table in TOML that has these keys, with those that it must have, or the first one.
+pub(super) fn example(keys: &[Key]) -> String {
+    let shown = |key: &Key| match ((key.table)(), key.example) {
+        (Some(table), "") => Some(format!("{} = {}", key.name, table.example)),
+        (_, "") => None,
+        (_, value) => Some(format!("{} = {value}", key.name)),
+    };
+    let required: Vec<String> = keys.iter().filter(|key| key.default == REQUIRED).filter_map(shown).collect();
+    match required.is_empty() {
+        true => format!("{{ {} }}", keys.iter().find_map(shown).unwrap_or_default()),
+        false => format!("{{ {} }}", required.join(", ")),
+    }
+}
+
 pub(super) struct TableVisitor<T>(pub PhantomData<T>);
 
 impl<'de, T: Table> Visitor<'de> for TableVisitor<T> {
     type Value = T;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "struct {}", T::NAME)
+        write!(f, "a table, such as {}", example(T::KEYS))
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
@@ -271,7 +297,7 @@ macro_rules! table {
                 $(let mut $field: Option<$type> = None;)*
                 while let Some(key) = map.next_key_seed($crate::keys::table::OneOf(Self::NAMES))? {
                     $(if key == table!(@key $field $($key)?) {
-                        let unit = $crate::keys::value::KeyUnit::of($unit);
+                        let unit = $crate::keys::value::KeyUnit::of_key($unit, $example);
                         $field = Some(map.next_value_seed($crate::keys::value::In::<$type>::new(unit))?);
                         continue;
                     })*

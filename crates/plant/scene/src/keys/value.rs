@@ -12,13 +12,14 @@ use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// The unit of a key, and a text that it takes.
+/// The unit of a key, a text that a number of it takes, and a value of the key.
 #[derive(Clone, Copy)]
 pub struct KeyUnit {
     /// Unit of plain numbers; "" for none.
     pub unit: &'static str,
-    /// An example of a text.
     pub such: &'static str,
+    /// A value of the key in TOML; "" where it is none of a key.
+    pub example: &'static str,
 }
 
 impl KeyUnit {
@@ -50,7 +51,17 @@ impl KeyUnit {
             "kg/m³" => "2.5 g/cm³",
             _ => "40 %",
         };
-        KeyUnit { unit, such }
+        KeyUnit { unit, such, example: "" }
+    }
+
+    /// The same of a key with this example.
+    pub fn of_key(unit: &'static str, example: &'static str) -> KeyUnit {
+        KeyUnit { example, ..KeyUnit::of(unit) }
+    }
+
+    /// The same of a part of the value.
+    pub fn within(self) -> KeyUnit {
+        KeyUnit { example: "", ..self }
     }
 
     /// The number in a text.
@@ -66,8 +77,14 @@ impl KeyUnit {
     }
 
     pub(super) fn expecting(self, f: &mut fmt::Formatter, what: &str) -> fmt::Result {
+        self.expecting_such(f, what, &format!("0.5 or \"{}\"", self.such))
+    }
+
+    /// What is expected, with an example; "" for none.
+    pub(super) fn expecting_such(self, f: &mut fmt::Formatter, what: &str, such: &str) -> fmt::Result {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
-        write!(f, "{what}{unit}, such as 0.5 or \"{}\"", self.such)
+        let such = if such.is_empty() { String::new() } else { format!(", such as {such}") };
+        write!(f, "{what}{unit}{such}")
     }
 }
 
@@ -95,6 +112,11 @@ pub trait KeyValue: Sized {
     /// The numbers that a range is about.
     fn numbers(&self) -> Vec<f64> {
         Vec::new()
+    }
+
+    /// The word that it is, if it is one of several.
+    fn word(&self) -> Option<&'static str> {
+        None
     }
 
     /// Checks that they are in the range of their key.
@@ -173,6 +195,10 @@ macro_rules! word_values {
                 let word = <$type>::ALL.iter().find(|word| word.name() == text).copied();
                 word.ok_or_else(|| serde::de::Error::custom(text))
             }
+
+            fn word(&self) -> Option<&'static str> {
+                Some(self.name())
+            }
         }
     )* };
 }
@@ -222,27 +248,6 @@ pub(super) fn exactly<'de, T: KeyValue, D: Deserializer<'de>, const N: usize>(
     values.try_into().map_err(|_| D::Error::invalid_length(count, &expected))
 }
 
-/// Whole numbers.
-macro_rules! whole_numbers {
-    ($($type:ty)*) => { $(
-        impl KeyValue for $type {
-            fn kind() -> String {
-                "integer".to_owned()
-            }
-
-            fn read<'de, D: Deserializer<'de>>(_: KeyUnit, from: D) -> Result<$type, D::Error> {
-                <$type>::deserialize(from)
-            }
-
-            fn numbers(&self) -> Vec<f64> {
-                vec![*self as f64]
-            }
-        }
-    )* };
-}
-
-whole_numbers! { u32 u64 }
-
 impl KeyValue for String {
     fn kind() -> String {
         "text".to_owned()
@@ -276,6 +281,9 @@ impl<T: KeyValue> KeyValue for Option<T> {
     }
 }
 
+/// A list of tables, as [`crate::text`] knows it.
+pub(crate) const TABLES: &str = "a sequence of tables";
+
 /// Reads a list of any length.
 struct List<T>(KeyUnit, PhantomData<T>);
 
@@ -283,17 +291,15 @@ impl<'de, T: KeyValue> Visitor<'de> for List<T> {
     type Value = Vec<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match (T::table(), self.0.unit) {
-            // `text::parse` knows a list of tables by these words.
-            (Some(_), _) => f.write_str("a sequence"),
-            (None, "") => write!(f, "a {}", Vec::<T>::kind()),
-            (None, unit) => write!(f, "a {} [{unit}]", Vec::<T>::kind()),
+        match T::table() {
+            Some(_) => f.write_str(TABLES),
+            None => self.0.expecting_such(f, &format!("a {}", Vec::<T>::kind()), self.0.example),
         }
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Vec<T>, A::Error> {
         let mut list = Vec::new();
-        while let Some(value) = seq.next_element_seed(In::<T>::new(self.0))? {
+        while let Some(value) = seq.next_element_seed(In::<T>::new(self.0.within()))? {
             list.push(value);
         }
         Ok(list)
@@ -316,6 +322,8 @@ impl<T: KeyValue> KeyValue for Vec<T> {
     }
 
     fn check(&self, judge: &dyn Judge, at: &str, key: &Key) -> Checked<()> {
+        let words: Vec<&str> = self.iter().filter_map(T::word).collect();
+        judge.once(at, &words)?;
         self.iter().enumerate().try_for_each(|(i, value)| value.check(judge, &format!("{at}.{i}"), key))
     }
 }

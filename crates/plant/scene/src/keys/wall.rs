@@ -64,6 +64,11 @@ impl Face {
         corners[self as usize / 2 + 3 * (self as usize % 2)]
     }
 
+    /// The name of it in a box of this name.
+    pub fn of(self, name: &str) -> String {
+        format!("{name} {}", self.name())
+    }
+
     /// Its plane in a box between two corners; the normal points into the box.
     pub fn plane(self, corners: &[f64; 6]) -> Plane {
         let (axis, high) = (self as usize / 2, self as usize % 2);
@@ -78,6 +83,24 @@ impl Wall {
         self.plane.is_some() || self.mesh.is_some() || self.cuboid.is_some() || self.solid.is_some()
     }
 
+    /// Its name, as entry `i` of the scene.
+    pub fn name_at(&self, i: usize) -> String {
+        self.name.clone().unwrap_or_else(|| format!("wall.{i}"))
+    }
+
+    /// The names of its surfaces, whose own name is `name`: a box has one for each face.
+    pub fn names(&self, name: &str) -> Vec<String> {
+        match self.cuboid {
+            Some(_) => self.faces().iter().map(|face| face.of(name)).collect(),
+            None => vec![name.to_owned()],
+        }
+    }
+
+    /// The faces of a box.
+    fn faces(&self) -> &[Face] {
+        self.faces.as_deref().unwrap_or(Face::ALL)
+    }
+
     /// Factor on the lengths in its file [–]; a name that is no unit of length was refused.
     pub fn length_factor(&self) -> f64 {
         length_factor(self.scale, self.units.as_deref())
@@ -86,7 +109,7 @@ impl Wall {
     /// The faces of a box with their planes, where they are put; none of other walls.
     pub fn sides(&self) -> Vec<(Face, Plane)> {
         let Some(corners) = self.cuboid else { return Vec::new() };
-        let (faces, place) = (self.faces.as_deref().unwrap_or(Face::ALL), self.placement());
+        let (faces, place) = (self.faces(), self.placement());
         let put = |plane: Plane| place.map_or(plane, |place| place.plane(&plane));
         faces.iter().map(|face| (*face, put(face.plane(&corners)))).collect()
     }

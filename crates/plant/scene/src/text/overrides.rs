@@ -43,15 +43,42 @@ fn put_into(item: &mut Item, name: &str, path: &[&str], value: Value) -> Result<
             [..] => put(table, rest, value),
         };
     }
-    let list = item.as_array_mut().ok_or(format!("'{name}' is not a list that could hold entry {index}"))?;
-    let len = list.len();
-    let slot = list.get_mut(index).ok_or(format!("'{name}' has {len} entries, no {index}"))?;
-    match rest {
-        [] => *slot = value,
-        [..] => {
-            let table = slot.as_inline_table_mut();
-            put(table.ok_or(format!("'{name}.{index}' is not a table"))?, rest, value)?;
-        }
+    match item.as_value_mut() {
+        Some(list) => put_into_list(list, name, (index, rest), value),
+        None => Err(no_list(name, index)),
     }
-    Ok(())
+}
+
+/// Puts `value` into the entry of a list, or into a list or a table in it.
+fn put_into_list(
+    list: &mut Value,
+    name: &str,
+    (index, path): (usize, &[&str]),
+    value: Value,
+) -> Result<(), String> {
+    let list = list.as_array_mut().ok_or_else(|| no_list(name, index))?;
+    let len = list.len();
+    let slot = list.get_mut(index).ok_or_else(|| {
+        let entries = if len == 1 { "entry" } else { "entries" };
+        format!("'{name}' has {len} {entries}, no {index}")
+    })?;
+    let entry = format!("{name}.{index}");
+    match path {
+        [] => {
+            *slot = value;
+            Ok(())
+        }
+        [first, rest @ ..] => match first.parse() {
+            Ok(index) => put_into_list(slot, &entry, (index, rest), value),
+            Err(_) => match slot.as_inline_table_mut() {
+                Some(table) => put(table, path, value),
+                None => Err(format!("'{entry}' is not a table that could hold '{first}'")),
+            },
+        },
+    }
+}
+
+/// Why a value has no entry of this number.
+fn no_list(name: &str, index: usize) -> String {
+    format!("'{name}' is not a list that could hold entry {index}")
 }

@@ -3,7 +3,7 @@
 use super::Text;
 use super::missing::missing;
 use crate::error::{Place, Result, SceneError, nearest};
-use crate::keys::SceneKeys;
+use crate::keys::{SceneKeys, TABLES};
 use serde_path_to_error::{Path, Segment};
 use toml::de::Error;
 
@@ -59,7 +59,11 @@ fn refused(text: &Text, table: &str, error: &Error) -> SceneError {
         Some((key, rest)) => unknown_key(place, key, rest),
         None => {
             let hint = variant_hint(message).map_or(String::new(), |h| format!("; did you mean '{h}'?"));
-            SceneError::Syntax { place, message: format!("{}{hint}", plain(message)) }
+            let tables = format!("tables: write each below a line [[{table}]]");
+            SceneError::Syntax {
+                place,
+                message: format!("{}{hint}", plain(message).replace(TABLES, &tables)),
+            }
         }
     }
 }
@@ -79,7 +83,7 @@ fn written_once(message: &str, word: &str, line: &str) -> Option<String> {
     if message.starts_with("duplicate key") {
         return Some(format!("'{word}' is there twice: leave one of them out"));
     }
-    let list = message.starts_with("invalid type: map, expected a sequence");
+    let list = message.starts_with(&format!("invalid type: map, expected {TABLES}"));
     let head = line.trim().strip_prefix('[').filter(|head| list && !head.starts_with('['))?;
     let name = head.split(']').next().unwrap_or_default().trim();
     Some(format!("[{name}] is one of a list: write it as [[{name}]]"))
@@ -114,20 +118,12 @@ fn bounded(message: &str) -> String {
 
 /// The parser's message in the terms of a scene.
 fn plain(message: &str) -> String {
-    let mut text = bounded(&rounded(message)).replace('`', "'");
-    if let Some((rest, kind)) = text.split_once(", expected ") {
-        let wanted = match kind.split(' ').next().unwrap_or_default() {
-            "f64" => "a number, such as 0.5",
-            "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number from 0",
-            "i64" => "a whole number",
-            "struct" => "a table: name one of its keys, such as time.until",
-            "a" if kind.starts_with("a sequence") => "a list, such as [0, 0, 1]",
-            _ => kind,
-        };
-        text = format!("{rest}, expected {wanted}");
-    }
-    text.replace("invalid length ", "wrong number of values: ")
+    bounded(&rounded(message))
+        .replace('`', "'")
+        .replace("invalid length ", "wrong number of values: ")
         .replace("an array of length ", "a list of ")
+        .replace("invalid type: map,", "invalid type: table,")
+        .replace("invalid type: sequence,", "invalid type: list,")
         .replace("invalid type: ", "wrong kind of value: ")
         .replace("floating point", "number")
 }
@@ -209,7 +205,10 @@ mod tests {
         assert!(message.starts_with("s.toml:2:9: ") && message.contains("expected a number"), "{message}");
         assert!(refused("[time]\ndt = \"fast\"").contains("\"auto\" or a number"));
         let message = refused("first_id = 1e99");
-        assert!(message.contains("wrong kind of value: number '1e99', expected a whole number"), "{message}");
+        assert!(
+            message.contains("invalid value: number '1e99', expected a whole number from 0"),
+            "{message}"
+        );
         let message = refused("[time]\n[[contact]]\nbetween=[\"*\",\"*\"]\nrestitution=1\nlaw=\"herz\"");
         assert!(message.contains("did you mean 'hertz'?"), "{message}");
         assert!(refused("[time\n").starts_with("s.toml:1:"));
@@ -228,7 +227,7 @@ mod tests {
             "{message}"
         );
         assert!(
-            refused("time = 3").contains("expected a table: name one of its keys"),
+            refused("time = 3").ends_with("integer '3', expected a table, such as { until = 1 }"),
             "{}",
             refused("time = 3")
         );

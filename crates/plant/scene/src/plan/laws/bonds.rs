@@ -90,7 +90,7 @@ impl Bond {
         let ratio = self.strength_ratio;
         let other = |own: Option<f64>, from: Option<f64>| own.or(from).unwrap_or(f64::INFINITY);
         let spread = match (self.deviation, self.weibull_modulus) {
-            (Some(deviation), _) => Spread::Normal { deviation },
+            (Some(deviation), _) if deviation != 0.0 => Spread::Normal { deviation },
             (_, Some(modulus)) => Spread::Weibull { modulus, reference_radius: self.reference_radius },
             _ => Spread::None,
         };

@@ -24,7 +24,7 @@ impl PlanBuilder<'_> {
         let mut given = given.into_iter();
         for (i, entry) in self.keys().wall.iter().enumerate() {
             let key = format!("wall.{i}");
-            let name = entry.name.clone().unwrap_or_else(|| key.clone());
+            let name = entry.name_at(i);
             let file = match &entry.source {
                 Some(source) => {
                     let mut file = self.wall_file(source)?;
@@ -214,8 +214,7 @@ impl PlanBuilder<'_> {
                 .map_err(|(why, cure)| self.check.wrong(&key, format!("\"{text}\""), why, cure))?;
             return Ok(vec![(name.to_owned(), entry.put(shape))]);
         }
-        let face =
-            |(face, plane): (Face, Plane)| (format!("{name} {}", face.name()), WallShape::Plane(plane));
+        let face = |(face, plane): (Face, Plane)| (face.of(name), WallShape::Plane(plane));
         Ok(entry.sides().into_iter().map(face).collect())
     }
 }
