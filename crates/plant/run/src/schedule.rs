@@ -90,12 +90,15 @@ fn counts(scene: &Scene, until: f64, steps: f64, every: f64, dt: f64) -> Result<
     }
     let (most, key) = (guards.frames.unwrap_or(MOST_FRAMES), "guards.frames");
     let checkpoint = scene.keys.output.checkpoint;
-    for (name, what, every) in
-        [("output.every", "frames", Some(every)), ("output.checkpoint", "checkpoints", checkpoint)]
+    // The state at the start is a frame, and no checkpoint. A last one that is less than a step behind a multiple is that one.
+    for (name, what, every, first) in
+        [("output.every", "frames", Some(every), 1.0), ("output.checkpoint", "checkpoints", checkpoint, 0.0)]
     {
-        let Some((every, count)) = every.map(|every| (every, until / every)) else { continue };
+        let Some(every) = every else { continue };
+        let count = first + ((until - 0.5 * dt) / every).ceil();
         if count > most {
-            let why = format!("is {count:.3e} {what} until {until} s, more than {key} = {most:e}");
+            let count = if count < 1e6 { count.to_string() } else { format!("{count:.3e}") };
+            let why = format!("is {count} {what} until {until} s, more than {key} = {most:e}");
             let cure = format!("make it longer, end earlier, or raise {key}");
             return Err(scene.wrong(name, format!("{every} s"), &why, &cure));
         }

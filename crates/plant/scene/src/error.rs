@@ -29,6 +29,8 @@ impl fmt::Display for Place {
 pub enum SceneError {
     #[error("{name}: cannot read the file")]
     Read { name: String, source: std::io::Error },
+    #[error("{place}: {key}: {name}: cannot read the file")]
+    Named { place: Place, key: String, name: String, source: std::io::Error },
     #[error("{place}: {message}")]
     Syntax { place: Place, message: String },
     #[error("{place}: unknown key '{key}'{hint}")]

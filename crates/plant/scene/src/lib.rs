@@ -18,6 +18,7 @@ pub mod error;
 pub mod input;
 pub mod keys;
 pub mod materials;
+mod origin;
 pub mod plan;
 mod scene;
 pub mod text;

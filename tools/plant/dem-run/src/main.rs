@@ -75,13 +75,17 @@ struct Args {
 fn main() -> ExitCode {
     cli::run("dem-run", |args: Args| {
         let Some(scene) = args.scene.clone() else { return keys::print(&args.output) };
-        dem_run(args, &scene).map_err(|e| in_scene(e, scene.to_string()))
+        dem_run(args, &scene)
     })
 }
 
-/// Adds the name of the scene file to an error of the engine.
-fn in_scene(error: anyhow::Error, scene: String) -> anyhow::Error {
-    if error.chain().any(|cause| cause.is::<SceneSetupError>()) { error.context(scene) } else { error }
+/// Adds the place of its cause in the scene to an error of the engine.
+fn in_scene(error: anyhow::Error, scene: &Scene) -> anyhow::Error {
+    let cause = error.chain().find_map(|cause| cause.downcast_ref::<SceneSetupError>());
+    match cause.map(|cause| scene.place_of(cause)) {
+        Some(place) => error.context(place),
+        None => error,
+    }
 }
 
 fn dem_run(args: Args, scene: &Source) -> anyhow::Result<Report> {
@@ -89,6 +93,11 @@ fn dem_run(args: Args, scene: &Source) -> anyhow::Result<Report> {
     misplaced::scene(scene)?;
     misplaced::inputs(scene, &args.inputs)?;
     let scene = read_scene(&args, scene)?;
+    planned(args, &scene).map_err(|error| in_scene(error, &scene))
+}
+
+/// Plans the scene, and does with it what was asked for.
+fn planned(args: Args, scene: &Scene) -> anyhow::Result<Report> {
     cli::also_reads(scene.files())?;
     if args.explain || args.check {
         without_run(&args)?;
@@ -109,11 +118,11 @@ fn dem_run(args: Args, scene: &Source) -> anyhow::Result<Report> {
     drop(filling);
     plan.warnings.iter().for_each(|note| cli::warn(note));
     if args.explain || args.check {
-        return explain(&args, &scene, plan, resume.as_ref());
+        return explain(&args, scene, plan, resume.as_ref());
     }
-    run::ready(&scene, &plan, resume.as_ref())?;
+    run::ready(scene, &plan, resume.as_ref())?;
     parts::say(&args.output, resumed.as_ref());
-    simulate(&args, &scene, plan, resume, earlier)
+    simulate(&args, scene, plan, resume, earlier)
 }
 
 /// What the resumed run has written, where the output is to begin with it.

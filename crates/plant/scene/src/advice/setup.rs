@@ -74,6 +74,9 @@ fn statement(error: &SetupError) -> String {
 /// What to do about it; `None` where the statement says what is allowed.
 fn remedy(error: &SetupError) -> Option<String> {
     let fixed = match error {
+        SetupError::OutOfRange(number) if number.allowed == Allowed::BelowOverlapGuard => {
+            "give less, or stiffen the material"
+        }
         SetupError::OutOfRange(_) | SetupError::PeriodTooSmall { .. } => return None,
         SetupError::NoContact { a, b } => {
             return Some(format!("add a [[contact]] with between = [\"{a}\", \"{b}\"]"));

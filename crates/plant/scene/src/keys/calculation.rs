@@ -210,7 +210,7 @@ table! {
     #[derive(Default)]
     Guards section {
         /// Largest overlap, as a share of the smaller radius.
-        overlap: Option<f64> = absent("0.25"), "", Positive, "0.25";
+        overlap: Option<f64> = absent("0.25"), "", AboveZeroUpTo(1.0), "0.25";
         /// Largest motion in one step, as a share of the radius.
         motion: Option<f64> = absent("0.25"), "", Positive, "0.25";
         /// Stop when a grain of an `[[inlet]]` goes back through its whole zone; "remove" takes it out and counts it

@@ -56,10 +56,10 @@ impl<'de, const N: usize> Visitor<'de> for Numbers<N> {
     type Value = [f64; N];
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        // A list in a list has no example, and the example of the key may be one number.
         let such = match self.0.example {
-            // A list in a list, or one of two ways to write a value.
-            "" => format!("[{}]", ["0.5"; N].join(", ")),
-            given => given.to_owned(),
+            list if list.starts_with('[') => list.to_owned(),
+            _ => format!("[{}]", ["0.5"; N].join(", ")),
         };
         self.0.expecting_such(f, &format!("a list of {N} numbers"), &such)
     }
@@ -136,7 +136,7 @@ impl<'de, T: Copy> Visitor<'de> for NumberOr<T> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<T, A::Error> {
         match self.range {
-            Some(range) => Numbers::<2>(self.unit.within()).visit_seq(seq).map(range),
+            Some(range) => Numbers::<2>(self.unit).visit_seq(seq).map(range),
             None => Err(A::Error::invalid_type(serde::de::Unexpected::Seq, &self)),
         }
     }

@@ -13,7 +13,7 @@ use geom::Shape;
 use mesh::Files;
 use record::{Map, MaterialRecord, Sizes};
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Index and density of a material that particles are made of.
@@ -132,14 +132,25 @@ impl<'a> PlanBuilder<'a> {
         &self.scene.keys
     }
 
-    /// A file that the scene names, relative to the scene's folder.
-    pub(super) fn path(&self, file: &str) -> PathBuf {
-        self.scene.folder.join(file)
+    /// A file that a key of the scene names, relative to the scene's folder, read in this way.
+    ///
+    /// # Errors
+    /// What is wrong with the file; where it cannot be read, at the key that names it.
+    pub(super) fn file<T>(&self, key: &str, file: &str, read: impl FnOnce(&Path) -> Result<T>) -> Result<T> {
+        read(&self.scene.folder.join(file)).map_err(|error| match error {
+            SceneError::Read { name, source } => {
+                SceneError::Named { place: self.check.text.place(key), key: key.to_owned(), name, source }
+            }
+            other => other,
+        })
     }
 
     pub(super) fn shape(&self, key: &str, text: &str) -> Result<Shape> {
         Shape::parse(text, &Files(&self.scene.folder)).map_err(|e| {
-            let cure = "write box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r or cylinder:x0,y0,z0,x1,y1,z1,r";
+            let cure = match text.starts_with("mesh:") {
+                true => "give the file of a closed mesh (PLY, STL, OBJ), as seen from the folder of the scene",
+                false => "write box:x0,y0,z0,x1,y1,z1, sphere:x,y,z,r, cylinder:x0,y0,z0,x1,y1,z1,r, cone:x0,y0,z0,x1,y1,z1,r0,r1 or mesh:FILE",
+            };
             self.check.wrong(key, format!("\"{text}\""), &e.to_string(), cure)
         })
     }

@@ -12,7 +12,8 @@ type Ranges = [Option<(f64, f64)>; 3];
 impl PlanBuilder<'_> {
     /// What a file says of the domain.
     fn domain_of_file(&self) -> Result<Option<Ranges>> {
-        self.keys().domain.source.as_ref().map(|source| read_domain(&self.path(source))).transpose()
+        let source = self.keys().domain.source.as_ref();
+        source.map(|source| self.file("domain.source", source, read_domain)).transpose()
     }
 
     /// Adds that to what the run is made from.
@@ -80,7 +81,8 @@ impl PlanBuilder<'_> {
             None => (Target::constant(strain.stress.unwrap_or(0.0)), true),
             Some(path) => {
                 let (at, value) = (format!("{entry}.path.source"), format!("\"{}\"", path.source));
-                let (rows, column, hash) = read_load(&self.path(&path.source), &STRAIN_COLUMNS)?;
+                let (rows, column, hash) =
+                    self.file(&at, &path.source, |file| read_load(file, &STRAIN_COLUMNS))?;
                 self.inputs.push(("strain".to_owned(), hash));
                 (self.target(&at, &value, rows)?, column == 1)
             }

@@ -48,7 +48,9 @@ impl PlanBuilder<'_> {
     /// `[[particles]]` with `clump`: a clump for each row of a file.
     pub(in crate::plan) fn clump_file(&mut self, key: &str, entry: &Particles, clump: &str) -> Result<()> {
         let shape = self.clump(&format!("{key}.clump"), clump)?;
-        let file = ParticleTable::read(&self.path(&entry.source), entry.length_factor())?;
+        let file = self.file(&format!("{key}.source"), &entry.source, |file| {
+            ParticleTable::read(file, entry.length_factor())
+        })?;
         if file.clumps.is_some() {
             let (at, cure) = (format!("{key}.clump"), "take it out: the clumps of the run keep their shapes");
             let why = "would place a clump at each sphere, and the file is a run with clumps";

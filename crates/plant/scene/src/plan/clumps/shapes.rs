@@ -79,7 +79,11 @@ impl PlanBuilder<'_> {
     }
 
     fn polyhedron(&mut self, key: &str, entry: &Clump, file: &str) -> Result<(Vec<Sphere>, Moments)> {
-        let mesh = read_mesh_warned(&self.path(file), entry.scale, &mut self.warnings)?.welded();
+        let mut warnings = Vec::new();
+        let mesh = self
+            .file(&format!("{key}.mesh"), file, |file| read_mesh_warned(file, entry.scale, &mut warnings))?;
+        self.warnings.extend(warnings);
+        let mesh = mesh.welded();
         let refused = |why: &str, cure: &str| {
             self.check.wrong(&format!("{key}.mesh"), format!("\"{file}\""), why, cure)
         };

@@ -28,7 +28,9 @@ impl PlanBuilder<'_> {
 
     fn particle_file(&mut self, index: usize, entry: &Particles) -> Result<()> {
         let named = entry.materials.as_deref().unwrap_or_default();
-        let file = ParticleFile::read_with(&self.path(&entry.source), entry.length_factor(), named)?;
+        let file = self.file(&format!("particles.{index}.source"), &entry.source, |file| {
+            ParticleFile::read_with(file, entry.length_factor(), named)
+        })?;
         self.inputs.push(("particles".to_owned(), file.hash.clone()));
         self.warnings.extend(file.warning.clone());
         if !entry.fixed {

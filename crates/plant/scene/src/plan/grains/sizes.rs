@@ -153,7 +153,8 @@ impl EntryGrains<'_> {
         let scale = match table.get("units") {
             None => 1.0,
             Some(Value::String(name)) => {
-                units::factor(name, "m").map_err(|e| self.wrong(plan, name, &e.to_string()))?
+                let value = format!("units = \"{name}\"");
+                units::factor(name, "m").map_err(|_| self.wrong(plan, &value, "is no unit of length"))?
             }
             Some(other) => return Err(self.wrong(plan, &other.to_string(), "is no unit")),
         };
@@ -162,8 +163,7 @@ impl EntryGrains<'_> {
 
     /// Columns `diameter` and `passing` (share or percent that is smaller), rising.
     fn sieve(&self, plan: &PlanBuilder, file: &str, scale: f64) -> Result<Vec<Part>> {
-        let path = plan.path(file);
-        let (name, table) = table_of(&path)?;
+        let (name, table) = plan.file(&self.key("sizes"), file, table_of)?;
         let columns = record::Columns { name: &name, table: &table };
         let (sizes, passing) = (columns.numbers("diameter")?, columns.numbers("passing")?);
         let wrong = |why: String| {

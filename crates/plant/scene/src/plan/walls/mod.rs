@@ -12,7 +12,7 @@ use crate::keys::{Face, Motion, Rotate, Wall};
 use crate::plan::builder::{PlanBuilder, WallMaterial};
 use dem::setup::{self, SurfaceMotion, WallShape};
 use geom::motion::Path;
-use geom::{Plane, Vec3};
+use geom::{Plane, Shown, Vec3};
 use std::f64::consts::TAU;
 
 impl PlanBuilder<'_> {
@@ -27,7 +27,7 @@ impl PlanBuilder<'_> {
             let name = entry.name_at(i);
             let file = match &entry.source {
                 Some(source) => {
-                    let mut file = self.wall_file(source)?;
+                    let mut file = self.wall_file(&format!("{key}.source"), source)?;
                     file.scale(entry.length_factor());
                     file
                 }
@@ -67,10 +67,9 @@ impl PlanBuilder<'_> {
         Ok(())
     }
 
-    fn wall_file(&self, source: &str) -> Result<WallFile> {
-        let path = self.path(source);
-        let Input::Walls(walls) = Input::open_file(&path)? else {
-            let name = path.display().to_string();
+    fn wall_file(&self, key: &str, source: &str) -> Result<WallFile> {
+        let Input::Walls(walls) = self.file(key, source, Input::open_file)? else {
+            let name = self.scene.folder.join(source).display().to_string();
             return Err(SceneError::file(&name, "is an inlet, no walls", "name it in [[inlet]]"));
         };
         Ok(walls)
@@ -153,6 +152,7 @@ impl PlanBuilder<'_> {
             surface.velocity = place.vector(&surface.velocity);
             (surface.turn, surface.through) = (place.vector(&surface.turn), place.point(&surface.through));
         }
+        self.pushes(key, entry, &shape)?;
         let servo = entry.servo.as_ref().map(|s| self.servo(&format!("{key}.servo"), s)).transpose()?;
         let mount = entry.spring.as_ref().map(|s| setup::Mount {
             direction: Vec3::from(s.direction).normalize(),
@@ -164,18 +164,30 @@ impl PlanBuilder<'_> {
         Ok(setup::Wall { motion, surface, servo, mount, ..setup::Wall::new(name, material, shape) })
     }
 
+    /// Refuses a plane whose servo does not push to the side of the grains.
+    fn pushes(&self, key: &str, entry: &Wall, shape: &WallShape) -> Result<()> {
+        let (Some(servo), WallShape::Plane(plane)) = (&entry.servo, shape) else { return Ok(()) };
+        if Vec3::from(servo.direction).normalize().dot(&plane.normal) > ACROSS {
+            return Ok(());
+        }
+        let list = |vector: [f64; 3]| format!("[{}]", vector.map(|x| Shown(x).to_string()).join(", "));
+        let normal = list(plane.normal.into());
+        let why = format!("does not push to the side of the grains, to which the normal {normal} points");
+        let cure = format!("give {normal}, or turn the normal round");
+        Err(self.check.wrong(&format!("{key}.servo.direction"), list(servo.direction), &why, &cure))
+    }
+
     /// The motions of an entry, one after the other.
     fn motion(&mut self, key: &str, entry: &Wall) -> Result<setup::Motion> {
-        let list = entry.motion.as_deref().unwrap_or_default();
-        let mut parts = Vec::with_capacity(list.len());
-        for part in list {
+        let mut parts = Vec::new();
+        for (key, part) in entry.motion.iter().flat_map(|list| list.entries(key)) {
             let mut motion = motion(part);
             if let Some(path) = &part.path {
-                let file = self.path(&path.source);
-                let (rows, hash) = read_path(&file, path.about.is_some())?;
+                let path_key = format!("{key}.path.source");
+                let (rows, hash) =
+                    self.file(&path_key, &path.source, |file| read_path(file, path.about.is_some()))?;
                 self.inputs.push(("motion".to_owned(), hash));
                 let about = path.about.map_or(Vec3::zeros(), Vec3::from);
-                let path_key = format!("{key}.path.source");
                 let table = Path::new(about, rows).map_err(|e| {
                     let cure = "give t in ascending order, one row for each time; positions are relative to the first row";
                     self.check.wrong(&path_key, format!("\"{}\"", path.source), &e.to_string(), cure)
@@ -205,7 +217,11 @@ impl PlanBuilder<'_> {
             return Ok(vec![(name.to_owned(), entry.put(WallShape::Plane(plane)))]);
         }
         if let Some(file) = &entry.mesh {
-            let mesh = read_mesh_warned(&self.path(file), entry.length_factor(), &mut self.warnings)?;
+            let mut warnings = Vec::new();
+            let mesh = self.file(&format!("{key}.mesh"), file, |file| {
+                read_mesh_warned(file, entry.length_factor(), &mut warnings)
+            })?;
+            self.warnings.extend(warnings);
             return Ok(vec![(name.to_owned(), entry.put(WallShape::Mesh(mesh)))]);
         }
         if let Some(text) = &entry.solid {
@@ -235,6 +251,9 @@ fn is_same(a: &setup::Wall, b: &setup::Wall) -> bool {
         _ => false,
     }
 }
+
+/// Share of the motion of a plane along its normal from which on it pushes, as the engine has it [–].
+const ACROSS: f64 = 1e-9;
 
 /// Planes that differ by less are one [–].
 const ALIKE: f64 = 1e-12;

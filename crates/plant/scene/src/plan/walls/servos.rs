@@ -15,11 +15,11 @@ impl PlanBuilder<'_> {
     pub(in crate::plan) fn servo(&mut self, key: &str, entry: &Servo) -> Result<setup::Servo> {
         let target = match &entry.path {
             Some(path) => {
-                let file = self.path(&path.source);
-                let (rows, column, hash) = read_load(&file, &LOAD_COLUMNS)?;
+                let (at, value) = (format!("{key}.path.source"), format!("\"{}\"", path.source));
+                let (rows, column, hash) =
+                    self.file(&at, &path.source, |file| read_load(file, &LOAD_COLUMNS))?;
                 let of_stress = column == 1;
                 self.inputs.push(("load".to_owned(), hash));
-                let (at, value) = (format!("{key}.path.source"), format!("\"{}\"", path.source));
                 if of_stress != (entry.area.is_some() || entry.area_between.is_some()) {
                     let (why, cure) = match of_stress {
                         true => (

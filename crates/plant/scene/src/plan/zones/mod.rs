@@ -21,7 +21,7 @@ impl PlanBuilder<'_> {
         for (i, entry) in self.keys().inlet.iter().enumerate() {
             let key = format!("inlet.{i}");
             let stream = match &entry.source {
-                Some(source) => self.open_inlet(source)?,
+                Some(source) => self.open_inlet(&format!("{key}.source"), source)?,
                 None => given.next().ok_or_else(|| {
                     let why = "waits for an inlet of the command line, and none was given";
                     let cure = "give dem-run the inlet that stage-replay wrote (dem-run SCENE.toml INLET.mcap), or this entry source";
@@ -57,10 +57,9 @@ impl PlanBuilder<'_> {
         Err(SceneError::file(&left.name, why, "add [[inlet]] plane = \"…\" to the scene, or leave it out"))
     }
 
-    fn open_inlet(&self, source: &str) -> Result<InletSource> {
-        let path = self.path(source);
-        let Input::Inlet(stream) = Input::open_file(&path)? else {
-            let name = path.display().to_string();
+    fn open_inlet(&self, key: &str, source: &str) -> Result<InletSource> {
+        let Input::Inlet(stream) = self.file(key, source, Input::open_file)? else {
+            let name = self.scene.folder.join(source).display().to_string();
             return Err(SceneError::file(&name, "holds walls, no crossings", "name it in [[wall]]"));
         };
         Ok(*stream)
