@@ -32,6 +32,8 @@ fn the_page_on_scenes_has_every_effect_and_key() {
         let of = if section.path.is_empty() { "the top level" } else { &section.path };
         compare(page, &format!("the keys of {of}"), &section.markdown());
     }
+    compare(page, "the smallest accuracies", &scene::plan::smallest_accuracies());
+    compare(page, "the sizes of numbers", &scene::keys::sizes());
 }
 
 /// Files of the engine whose heads hold the laws of contacts, and what the laws are called.

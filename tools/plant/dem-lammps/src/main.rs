@@ -66,7 +66,8 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
 
 fn read_scene(args: &Args) -> anyhow::Result<Scene> {
     let mut overrides = args.set.clone();
-    overrides.extend(args.until.map(|s| format!("time.until={s:?}")));
+    // TOML writes nan and inf in small letters.
+    overrides.extend(args.until.map(|s| format!("--until={s:?}").to_lowercase()));
     let folder = args.scene.path().and_then(Path::parent).unwrap_or(Path::new(""));
     let scene = Scene::new(&args.scene.to_string(), args.scene.read_text()?, &overrides, folder);
     scene.map_err(|error| match error {

@@ -186,7 +186,8 @@ fn written(error: RunError, args: &Args) -> anyhow::Error {
 
 fn read_scene(args: &Args, file: &Source) -> anyhow::Result<Scene> {
     let mut overrides = args.set.clone();
-    overrides.extend(args.until.map(|s| format!("time.until={s:?}")));
+    // TOML writes nan and inf in small letters.
+    overrides.extend(args.until.map(|s| format!("--until={s:?}").to_lowercase()));
     let folder = file.path().and_then(Path::parent).unwrap_or(Path::new(""));
     let (name, text) = (file.to_string(), file.read_text()?);
     let wrong = |error: SceneError| match error {

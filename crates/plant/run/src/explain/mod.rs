@@ -16,8 +16,9 @@ use dem::setup::{Guards, Setup, Wall, WallShape};
 use dem::{ContactBytes, MatchedDamping, Simulation, critical_step};
 pub use effects::Effect;
 use effects::{EffectToMeasure, effects};
-use geom::counted;
+use geom::{Shown, counted};
 use scene::advice::explain_step_cause;
+use scene::keys::Insert;
 use scene::plan::Insertion;
 use scene::{Plan, Scene};
 use serde::Serialize;
@@ -89,18 +90,36 @@ pub struct Coming {
     /// Keys of the insertions.
     #[serde(rename = "faucets")]
     pub insertions: Vec<String>,
+    /// When those that repeat open and close.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub repeats: Vec<String>,
     /// Particles that they bring until the end, and the mean number of these over the run.
     pub particles: (f64, f64),
     /// Keys of the inlets, whose particles are not known before.
     pub streams: Vec<String>,
 }
 
+/// When an insertion opens and closes, if it repeats.
+fn repeats((i, entry): (usize, &Insert)) -> Option<String> {
+    let shown = |number: f64, unit: &str| format!("{} {unit}", Shown(number));
+    let (from, period) = (shown(entry.from, "s"), shown(entry.repeat?, "s"));
+    let often =
+        entry.times.map_or("without end".to_owned(), |times| format!("{} in all", counted(times, "time")));
+    let open = entry.until.map(|until| format!("after {}", shown(until - entry.from, "s")));
+    let mass = entry.mass.map(|mass| format!("after {}", shown(mass, "kg")));
+    let count = entry.count.map(|count| format!("after {}", counted(count, "grain")));
+    let ends = open.into_iter().chain(mass).chain(count).chain(["when the next begins".to_owned()]);
+    let ends = ends.collect::<Vec<_>>().join(" or ");
+    Some(format!("insert.{i} opens at {from} and every {period}, {often}; each time ends {ends}"))
+}
+
 impl Coming {
     /// Of these insertions and so many streams, until a time [s].
-    fn new(insertions: &[Insertion], streams: usize, end: f64) -> Coming {
+    fn new(scene: &Scene, insertions: &[Insertion], streams: usize, end: f64) -> Coming {
         let expected = insertions.iter().map(|insertion| insertion.expected(end));
         Coming {
             insertions: insertions.iter().flat_map(|insertion| insertion.keys().map(str::to_owned)).collect(),
+            repeats: scene.keys.insert.iter().enumerate().filter_map(repeats).collect(),
             particles: expected.fold((0.0, 0.0), |sum, more| (sum.0 + more.all, sum.1 + more.mean)),
             streams: (0..streams).map(|k| format!("inlet.{k}")).collect(),
         }
@@ -147,7 +166,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
     let (bonds, bytes_per_contact) = (sim.bond_count()[0], sim.bytes_of_contact());
     let bytes_per_bond = (bonds > 0).then(|| sim.bytes_of_bonds() as f64 / bonds as f64);
     drop(sim);
-    let coming = Coming::new(&insertions, streams.len(), dt * last as f64);
+    let coming = Coming::new(scene, &insertions, streams.len(), dt * last as f64);
     // The middle of the run at the latest: its end may be at rest.
     let measured = measure.then(|| Calibration::new(setup.clone(), &insertions, last / 2));
     let calibration = measured.as_ref().and_then(|m| m.as_ref().ok()).copied();

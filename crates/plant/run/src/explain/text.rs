@@ -82,6 +82,7 @@ fn coming(out: &mut String, coming: &Coming) {
         let present = format!("{there:.0} of them present on average");
         line(out, "", format!("{insertions} {bring} about {all:.0} until the end, {present}"));
     }
+    coming.repeats.iter().for_each(|words| line(out, "", words));
     if !streams.is_empty() {
         let words = "bring as many particles as they hold, which is not known in advance";
         line(out, "", format!("{streams} {words}"));

@@ -46,7 +46,9 @@ impl Judge for Check<'_> {
                 outside.map_or(Ok(()), |v| Err(self.not_between(at, *v, [low, high], (why, key.default))))
             }
             Range::AtLeast(low) => each(low, f64::INFINITY),
-            Range::AboveZeroUpTo(high) => positive().and_then(|()| each(0.0, high)),
+            Range::AboveZeroUpTo(high) => {
+                numbers.iter().try_for_each(|v| self.above_zero(at, *v, high, key.unit))
+            }
             Range::UnitLength => self.unit_length(at, numbers, key.default),
             Range::Poisson => numbers.iter().try_for_each(|v| self.poisson(at, *v)),
             Range::Pair => {
@@ -101,15 +103,23 @@ impl Check<'_> {
             return Ok(());
         };
         if value > most && value.is_finite() && least <= f64::MIN_POSITIVE {
-            let cure = format!("give a number above 0, up to {} {unit}", Shown(most));
-            let value = format!("{} {unit}", shown(value));
-            return Err(self.wrong(key, value.trim_end(), "is outside the range", cure.trim_end()));
+            return self.above_zero(key, value, most, unit);
         }
         if value > 0.0 && value.is_finite() {
             return self.within(key, value, least, most, unit);
         }
         let value = format!("{} {unit}", shown(value));
         Err(self.wrong(key, value.trim_end(), "must be a finite number above 0", "give a positive value"))
+    }
+
+    /// A number above zero, up to `high`, and of a size that its unit allows.
+    fn above_zero(&self, key: &str, value: f64, high: f64, unit: &str) -> Result<()> {
+        if value > high && value.is_finite() {
+            let value = format!("{} {unit}", shown(value));
+            let cure = format!("give a number above 0, up to {} {unit}", Shown(high));
+            return Err(self.wrong(key, value.trim_end(), "is outside the range", cure.trim_end()));
+        }
+        self.positive(key, value, unit)
     }
 
     /// A number from `low` to `high`.

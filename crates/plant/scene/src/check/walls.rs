@@ -102,7 +102,7 @@ impl Check<'_> {
         }
         let Some(name) = units else { return Ok(()) };
         units::factor(name, "m").map(drop).map_err(|_| {
-            let cure = "write \"mm\", \"cm\", \"m\", \"km\", \"µm\", \"in\" or \"ft\"";
+            let cure = "write \"µm\", \"mm\", \"cm\", \"m\", \"km\", \"in\" or \"ft\"";
             self.wrong(&format!("{entry}.units"), format!("\"{name}\""), "is no unit of length", cure)
         })
     }

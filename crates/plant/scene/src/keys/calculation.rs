@@ -34,7 +34,7 @@ table! {
         dt: OrAuto = absent("\"auto\""), "s", Positive, "1e-5";
         /// With "auto": time step over the critical step.
         safety: Option<f64> = absent("0.5; 0.2 for elastic grains: see below"), "", Within(1e-6, 1.0), "0.5";
-        /// With "auto": largest error of an impact, such as "1%"; sets `safety` from measured curves.
+        /// With "auto": largest error of an impact, such as "1%"; sets `safety` from measured curves, which have a smallest error: see below.
         accuracy: Option<Accuracy> = absent("none"), "", Within(1e-9, 1.0), "\"1%\"";
         /// Share by which the step is made shorter; contacts then begin at another phase of the step.
         shorten: Option<f64> = absent("0"), "", Within(0.0, 0.5), "0.1";

@@ -84,11 +84,7 @@ fn rows() -> Vec<Row> {
         };
         // A table that stands instead of a number has all of its keys.
         let default = if key.name.contains('.') { REQUIRED.to_owned() } else { required_with(key.name) };
-        Row {
-            unit: key.unit,
-            range: key.range.to_string(),
-            ..text(key.name, &kind, &default, key.doc, key.example)
-        }
+        Row { unit: key.unit, range: ranges(key), ..text(key.name, &kind, &default, key.doc, key.example) }
     };
     let between = text(BETWEEN, "2 names", REQUIRED, "Names of two materials; \"*\" stands for any", PAIR);
     let speed = "Instead of `stiffness`: the speed of impact at which two of the largest grains store as much as with \"hertz\"";
@@ -98,6 +94,16 @@ fn rows() -> Vec<Row> {
         [between].into_iter().chain(models().into_iter().map(model)).chain(keys().map(number)).collect();
     let at = all.iter().position(|row| row.name == "stiffness").map_or(all.len(), |at| at + 1);
     all.insert(at, speed);
+    all
+}
+
+/// The range of a number, and those of effects that have another one.
+fn ranges(key: &Key) -> String {
+    let mut all = key.range.to_string();
+    let own = |d: &&Description| d.keys.iter().find(|k| k.name == key.name && k.range != key.range).copied();
+    for (effect, other) in DESCRIPTIONS.iter().filter_map(|d| Some((d, own(d)?))) {
+        all += &format!(" ({} with \"{}\")", other.range, effect.model.map_or(effect.name, |m| m.value));
+    }
     all
 }
 

@@ -94,7 +94,7 @@ makes_grains! {
 makes_grains! {
     /// `[[insert]]`
     Insert {
-        /// Where grains are inserted: `box:…`, `sphere:…` or `cylinder:…`; thicker along `velocity` than the largest diameter.
+        /// Where grains are inserted: `box:…`, `sphere:…`, `cylinder:…`, `cone:…` or `mesh:FILE` (closed), as for `[[fill]]`; thicker along `velocity` than the largest diameter.
         shape: ShapeText = required, "m", Any, "\"box:0,0,0.2,0.1,0.1,0.22\"";
         /// Velocity of the grains inside the shape.
         velocity: [f64; 3] = required, "m/s", Finite, "[0, 0, -1]";
@@ -110,8 +110,8 @@ makes_grains! {
         mass: Option<f64> = absent("no limit"), "kg", Positive, "2";
         /// The insertion ends when it has inserted this number (a clump counts as one); this or `mass`.
         count: Option<u64> = absent("no limit"), "", AtLeast(1.0), "500";
-        /// The insertion opens again this long after `from`, and again; at least `until` − `from`. Without `until` each time ends after `mass` or
-        /// `count`, or when the next begins.
+        /// The insertion opens again this long after `from`, and again; at least `until` − `from`. It needs `until`, `mass` or `count`: each time
+        /// ends when it has inserted that, at `until`, or when the next begins, whichever comes first.
         repeat: Option<f64> = absent("never"), "s", Positive, "5";
         /// With `repeat`: how often it opens in all.
         times: Option<u64> = absent("no limit"), "", AtLeast(1.0), "3";

@@ -34,7 +34,7 @@ pub use grains::*;
 pub use material::*;
 pub use particles::*;
 pub use place::*;
-pub use sections::{Section, reference, rows, sections};
+pub use sections::{Section, reference, rows, sections, sizes};
 pub use servo::*;
 pub use table::Row;
 pub(crate) use table::{Judge, Key, Range, Table};

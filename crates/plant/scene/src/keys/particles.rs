@@ -48,7 +48,7 @@ table! {
         materials: Option<Vec<String>> = absent("–"), "", Any, "[\"soil\", \"stone\"]";
         /// The grains stay where they are: they are spheres of a wall.
         fixed: bool = absent("false"), "", Any, "true";
-        /// Unit of the lengths in the file (positions, radii, velocities): "mm", "cm", "m", "in", "ft"; this or `scale`; not for a run, which is in
+        /// Unit of the lengths in the file (positions, radii, velocities): "µm", "mm", "cm", "m", "km", "in", "ft"; this or `scale`; not for a run, which is in
         /// metres.
         units: Option<String> = absent("\"m\""), "", Any, "\"mm\"";
         /// Factor on these lengths; this or `units`.

@@ -86,6 +86,21 @@ impl Section {
     }
 }
 
+/// The sizes that numbers of each unit may have, in Markdown; keys of one unit have one size, unless they say otherwise.
+pub fn sizes() -> String {
+    let mut out = String::from("| unit | from | to |\n|---|---|---|\n");
+    let mut units: Vec<&str> = rows().into_iter().map(|(_, row)| row.unit).collect();
+    units.sort_unstable();
+    units.dedup();
+    for unit in units {
+        let [least, most] = dem::magnitudes(unit);
+        let least = if least <= f64::MIN_POSITIVE { "0".to_owned() } else { format!("{least:e}") };
+        // Writing to a string does not fail.
+        let _ = writeln!(out, "| {} | {least} | {most:e} |", if unit.is_empty() { "–" } else { unit });
+    }
+    out
+}
+
 /// The reference as a text: a scene with an example of each key, which a comment explains.
 pub fn reference() -> String {
     let mut out = String::new();

@@ -20,7 +20,7 @@ table! {
         mesh: Option<String> = absent("–"), "", File, "\"chute.stl\"";
         /// Surface of a solid: `box:…`, `cylinder:…`, `cone:…` or `sphere:…`; see below.
         solid: Option<ShapeText> = absent("–"), "m", Any, "\"cylinder:0,0,0,0,0,1,0.1\"";
-        /// Unit of the lengths in the file of `mesh` or `source`: "mm", "cm", "m", "in", "ft"; this or `scale`.
+        /// Unit of the lengths in the file of `mesh` or `source`: "µm", "mm", "cm", "m", "km", "in", "ft"; this or `scale`.
         units: Option<String> = absent("\"m\""), "", Any, "\"mm\"";
         /// Factor on the lengths in the file of `mesh` or `source`; this or `units`.
         scale: Option<f64> = absent("1"), "", Positive, "0.001";
@@ -153,7 +153,7 @@ table! {
         swing: Option<Swing> = absent("none"), "", Any, "";
         /// A table over time: see below.
         path: Option<Path> = absent("none"), "", Any, "";
-        /// Start of the motion.
+        /// Start of the motion. Below 0 it began before the run: the wall starts where it has come to by t = 0, and a warning says so.
         from: f64 = absent("0"), "s", Finite, "2";
         /// End of the motion; the wall then stays where it is.
         until: Option<f64> = absent("never"), "s", Any, "2.4";

@@ -17,6 +17,8 @@ use toml_edit::{DocumentMut, Item};
 
 /// Names in a dotted key, at most: `wall.0.motion.rotate.about.0` has six, and there is room for keys to come.
 const DEEPEST: usize = 12;
+/// Options of tools that change a key, and the key: `--until=0.5` is an override, too.
+const OPTIONS: [(&str, &str); 1] = [("--until", "time.until")];
 /// Characters of an override that a message shows.
 const SHOWN: usize = 120;
 
@@ -26,6 +28,14 @@ fn short(text: &str) -> String {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),
     }
+}
+
+/// Key and value of an override.
+fn split(text: &str) -> Option<(&str, &str)> {
+    let (given, value) = text.split_once('=')?;
+    let given = given.trim();
+    let option = OPTIONS.iter().find(|(option, _)| *option == given);
+    Some((option.map_or(given, |(_, key)| key), value.trim()))
 }
 
 /// A scene as it was written, with the name of its file for messages.
@@ -48,7 +58,7 @@ impl Text {
     }
 
     /// Changes values: each override is `KEY=VALUE`, the key dotted with indices for lists
-    /// (`contact.0.restitution=0.3`). Comments and order stay.
+    /// (`contact.0.restitution=0.3`), or an option that stands for a key (`--until=0.5`), as messages name it. Comments and order stay.
     ///
     /// # Errors
     /// A text without `=`, a key that leads nowhere.
@@ -59,15 +69,15 @@ impl Text {
         let mut document = self.document()?;
         for text in overrides {
             let refuse = |why: String| SceneError::Override { text: short(text), why };
-            let Some((key, value)) = text.split_once('=') else {
+            let Some((key, value)) = split(text) else {
                 return Err(refuse("'=' is missing: use KEY=VALUE, such as time.until=0.5".into()));
             };
-            let path: Vec<&str> = key.trim().split('.').collect();
+            let path: Vec<&str> = key.split('.').collect();
             if path.len() > DEEPEST {
                 let why = format!("has {} names: a key of a scene has at most {DEEPEST}", path.len());
                 return Err(refuse(why));
             }
-            put(document.as_table_mut(), &path, overrides::value(value.trim())).map_err(refuse)?;
+            put(document.as_table_mut(), &path, overrides::value(value)).map_err(refuse)?;
         }
         self.before = std::mem::replace(&mut self.toml, document.to_string());
         self.overrides = overrides.to_vec();
@@ -80,7 +90,7 @@ impl Text {
             key.strip_prefix(to).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
         };
         let names = |text: &&String| {
-            let to = text.split('=').next().unwrap_or_default().trim();
+            let to = split(text).map_or("", |(key, _)| key);
             // An error of a whole entry may have another cause than the key that was changed in it.
             leads(to, key) || (leads(key, to) && !key.ends_with(|c: char| c.is_ascii_digit()))
         };
@@ -89,7 +99,8 @@ impl Text {
 
     /// The place of an error that the changes cause: the reader sees only the file.
     pub(crate) fn changes(&self, overrides: &[&str]) -> Place {
-        let list: String = overrides.iter().map(|text| format!(" --set {}", short(text))).collect();
+        let option = |text: &&str| if text.starts_with("--") { "" } else { "--set " };
+        let list: String = overrides.iter().map(|text| format!(" {}{}", option(text), short(text))).collect();
         Place { file: format!("{} with{list}", self.name), at: None }
     }
 

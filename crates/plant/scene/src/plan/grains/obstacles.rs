@@ -238,10 +238,10 @@ mod tests {
     #[test]
     fn a_fill_that_the_guard_accepts_keeps_its_places() {
         let fill = "diameter = 0.01\ncount = 20\nseed = 1";
-        let all = format!(
-            "guards.overlap = 1e9\n{HEAD}[[fill]]\nmaterial = \"m\"\nshape = \"box:0,0,0,0.1,0.1,0.1\"\n{fill}"
-        );
-        let scene = crate::Scene::new("s", all, &[], std::path::Path::new("")).unwrap();
+        let all = format!("{HEAD}[[fill]]\nmaterial = \"m\"\nshape = \"box:0,0,0,0.1,0.1,0.1\"\n{fill}");
+        let mut scene = crate::Scene::new("s", all, &[], std::path::Path::new("")).unwrap();
+        // Deeper than any guard that a scene may give.
+        scene.keys.guards.overlap = Some(1e9);
         let kept = scene.plan(Vec::new()).unwrap().setup.particles;
         assert!(kept.iter().any(|p| height(p) < 0.5 * p.radius), "some lie in the wall");
         let moved = planned(fill).unwrap();

@@ -93,7 +93,7 @@ impl Feed {
             return Err(check.wrong(&key("velocity"), "0 m/s", "nothing would come out", cure));
         }
         let Some(section) = Section::new(shape, velocity / speed) else {
-            let why = "has no end: only box, sphere and cylinder (without '!') can insert particles";
+            let why = "has no end: only box, sphere, cylinder, cone and a closed mesh (without '!') can insert particles";
             return Err(check.wrong(&key("shape"), &entry.shape, why, "use one of these"));
         };
         let (thickness, largest) = (section.size(0), inserted.grading.range().high);

@@ -17,6 +17,7 @@ use crate::keys::{Accuracy, ELASTIC, SAFETY, SAFETY_ELASTIC, Sampling, Time};
 use dem::effects::{Slot, active, by_modulus};
 use dem::setup::ContactLaw;
 use std::collections::BTreeSet;
+use std::fmt::Write;
 
 /// The measured curves.
 const CURVES: &str = include_str!("../../../data/impact-error.csv");
@@ -59,6 +60,20 @@ fn curve(law: &str, sampling: Sampling) -> Vec<Measured> {
         point.error = worst;
     }
     points
+}
+
+/// The smallest accuracy that a step was measured to reach, by law and `time.contacts`, in Markdown.
+pub fn smallest_accuracies() -> String {
+    let mut out = String::from("| law | averaged | sampled |\n|---|---|---|\n");
+    for law in ["hertz", "hooke", "jkr", "walton_braun"] {
+        let least = [Sampling::Averaged, Sampling::Sampled].map(|contacts| {
+            let first = curve(law, contacts).first().copied();
+            first.map_or("not measured".to_owned(), |point| percent(point.error / AIM))
+        });
+        // Writing to a string does not fail.
+        let _ = writeln!(out, "| {law} | {} |", least.join(" | "));
+    }
+    out
 }
 
 /// The largest share of the critical step whose error is not above `wanted`; `None` when no measured one is.

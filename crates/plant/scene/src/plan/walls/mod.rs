@@ -182,6 +182,12 @@ impl PlanBuilder<'_> {
         let mut parts = Vec::new();
         for (key, part) in entry.motion.iter().flat_map(|list| list.entries(key)) {
             let mut motion = motion(part);
+            if part.from < 0.0 {
+                let why = "the motion began before the run: the wall starts where it has come to by t = 0";
+                let cure = "give 0 or leave it out if the wall starts where it is drawn";
+                let at = format!("{key}.from");
+                self.warnings.push(self.check.wrong(&at, format!("{} s", part.from), why, cure).to_string());
+            }
             if let Some(path) = &part.path {
                 let path_key = format!("{key}.path.source");
                 let (rows, hash) =
