@@ -127,6 +127,26 @@ fn nearest(time: f64, dt: f64) -> u64 {
 mod tests {
     use super::*;
 
+    /// As many frames as a run writes, the first at t = 0, and no fewer.
+    #[test]
+    fn the_guard_counts_the_frames_that_are_written() {
+        let dt = 1e-4;
+        for (until, every) in [(0.01, 1e-3), (0.0105, 1e-3), (0.01, 3e-3), (0.01, 0.02), (0.01, dt)] {
+            let toml = |frames: u64| {
+                format!("[time]\nuntil = {until}\n[output]\nevery = {every}\n[guards]\nframes = {frames}\n")
+            };
+            let new = |frames: u64| {
+                let scene = Scene::new("s", toml(frames), &[], std::path::Path::new("")).expect("a scene");
+                Schedule::new(&scene, dt)
+            };
+            let schedule = new(1000).expect("enough");
+            let written = (0..=schedule.last).filter(|step| schedule.is_frame(*step)).count() as u64;
+            assert!(new(written).is_ok(), "{until} {every} {written}");
+            let error = new(written - 1).map(drop).expect_err("one too few").to_string();
+            assert!(error.contains(&format!("is {written} frames")), "{error}");
+        }
+    }
+
     #[test]
     fn every_multiple_has_one_frame() {
         let schedule = Schedule { dt: 7e-4, last: 1429, every: 0.01, checkpoint: Some(0.3) };

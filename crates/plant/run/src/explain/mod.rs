@@ -230,3 +230,24 @@ fn wall_spheres(wall: &Wall) -> usize {
         _ => 0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn insertions_that_repeat_say_when_they_open_and_close() {
+        let words = |keys: &str| {
+            let insert = format!(
+                "[[insert]]\nmaterial = \"m\"\nshape = \"sphere:0,0,0,1\"\ndiameter = 0.1\nvelocity = [0, 0, -1]\nrate = 1\n{keys}"
+            );
+            let scene = Scene::new("s", insert, &[], std::path::Path::new("")).expect("a scene");
+            scene.keys.insert.iter().enumerate().filter_map(repeats).collect::<Vec<_>>().join("\n")
+        };
+        assert_eq!(words("until = 1"), "");
+        let of_mass = "insert.0 opens at 2 s and every 5 s, without end; each time ends after 3 kg or when the next begins";
+        assert_eq!(words("from = 2\nrepeat = 5\nmass = 3"), of_mass);
+        let twice = "insert.0 opens at 1 s and every 5 s, 2 times in all; each time ends after 2 s or after 1 grain or when the next begins";
+        assert_eq!(words("from = 1\nuntil = 3\nrepeat = 5\ncount = 1\ntimes = 2"), twice);
+    }
+}

@@ -15,6 +15,7 @@ mod material;
 mod numbers;
 mod particles;
 mod place;
+mod range;
 mod sections;
 mod servo;
 mod table;
