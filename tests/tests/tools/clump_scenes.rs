@@ -44,7 +44,7 @@ spheres = [[0, 0, 0, 0.01], [0.012, 0, 0, 0.008]]
 [[body]]
 clump = "cube"
 position = [0, 0, 0.1]
-quaternion = [2, 0, 0, 2]
+quaternion = [0.70710678, 0, 0, 0.70710678]
 spin = [0, 0, 3]
 [[particles]]
 source = "pairs.csv"
@@ -200,7 +200,11 @@ fn wrong_clumps_say_where_what_and_what_to_do() {
             "clump = \"cub\"\nposition",
             &["body.0.clump", "did you mean 'cube'?"],
         ),
-        ("quaternion = [2, 0, 0, 2]", "quaternion = [0, 0, 0, 0]", &["body.0.quaternion", "[1, 0, 0, 0]"]),
+        (
+            "quaternion = [0.70710678, 0, 0, 0.70710678]",
+            "quaternion = [0, 0, 0, 0]",
+            &["body.0.quaternion", "[1, 0, 0, 0]"],
+        ),
         ("scale = [0.7, 1.1]", "diameter = 0.01", &["fill.0.diameter", "a clump has its own"]),
         ("diameter = [0.01, 0.015]", "", &["fill.1", "diameter is missing"]),
         ("diameter = [0.01, 0.015]", "diameter = 0.01\nscale = 2", &["fill.1.scale", "only clumps"]),

@@ -63,7 +63,7 @@ const PAIRS_OF_CONTACTS_AND_BONDS: &[Change] = &[
         "[[wall]]\nname = \"floor\"\nplane = \"0,0,-0.02,0,0,1\"\nmaterial = \"steel\"\n[[wall]]\nname = \"lid\"\n\
          plane = \"0,0,0.12,0,0,-1\"\nmaterial = \"steel\"\nservo = { direction = [0, 0, -1], stress = 1000, \
          area_between = [[\"floor\", \"lid\"], 0.1], speed_limit = 1 }\n[[wall]]",
-        &["wall.1.servo.area_between = \"floor\"", "is the name of several walls"],
+        &["wall.2.name = \"floor\"", "is a name of wall.0 (s.toml:23:8), too"],
     ),
     wrong(
         "\"sinter\", \"*\"",
@@ -317,7 +317,7 @@ const WALLS: &[Change] = &[
     wrong(
         "plane = \"0,0,-0.01,0,0,1\"",
         "box = [0, 0, -0.01, 1, 1, 1]\nfaces = [\"x-\", \"z-\", \"x-\"]",
-        &["wall 'floor x-': is the same surface as wall 'floor x-'"],
+        &["wall.0.faces.2 = \"x-\"", "is in the list twice"],
     ),
     wrong("material = \"steel\"\n", "", &["wall.0", "material is missing"]),
     wrong("plane = \"0,0,-0.01,0,0,1\"", "mesh = \"no.ply\"", &["no.ply: cannot read the file"]),
@@ -392,7 +392,7 @@ const WALLS: &[Change] = &[
     wrong(
         "name = \"floor\"",
         "servo = { direction = [0,0,-1], force = 1, speed_limit = 1 }",
-        &["'wall.0': servo.direction along the plane's normal: -1", "to the side of the grains"],
+        &["wall.0.servo.direction = [0, 0, -1]", "to the side of the grains", "give [0, 0, 1]"],
     ),
 ];
 
