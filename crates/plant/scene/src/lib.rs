@@ -6,7 +6,7 @@
 //!
 //! [`text`] finds places in the file and reads it into [`keys`]; [`check`] judges every value by itself; [`Scene::plan`] reads the files
 //! that the scene names ([`input`]), places particles and makes the setup ([`plan`]). Modules use those before them in this list, never
-//! those after: error, text, keys, check, input, materials, scene, plan. [`advice`] puts errors of the engine into
+//! those after: error, text, keys, check, input, materials, scene, plan, origin (the key that an error of the engine is about). [`advice`] puts errors of the engine into
 //! the words of scenes and uses none of them. Uses `dem` for the setup's types and `record` for formats of files; knows nothing of time
 //! or of outputs.
 
