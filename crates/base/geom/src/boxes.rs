@@ -4,6 +4,7 @@
 //! all below it. The tree is a function of the boxes and their order alone.
 
 use crate::Vec3;
+use primitives::BoxTree;
 
 /// Bodies of a leaf.
 const LEAF: usize = 4;
@@ -16,7 +17,6 @@ pub struct Boxes {
     /// Numbers of the bodies, and their boxes, leaf by leaf.
     order: Vec<u32>,
     boxes: Vec<[Vec3; 2]>,
-    leaves: usize,
 }
 
 impl Boxes {
@@ -27,7 +27,7 @@ impl Boxes {
         let mut nodes = vec![none(); 2 * leaves - 1];
         fill(&mut nodes, 0, boxes, &mut order, leaves);
         let sorted = order.iter().map(|&k| boxes[k as usize]).collect();
-        Boxes { nodes, order, boxes: sorted, leaves }
+        Boxes { nodes, order, boxes: sorted }
     }
 
     /// Box of all of them; from ∞ to −∞ when there is none.
@@ -35,44 +35,19 @@ impl Boxes {
         self.nodes.first().copied().unwrap_or(none())
     }
 
-    /// Calls `found` with the number of each body whose box is within `reach` [m] of `p`, in the order of the tree.
-    pub fn near(&self, p: Vec3, reach: f64, mut found: impl FnMut(u32)) {
-        if !self.order.is_empty() {
-            self.descend(0, (0, self.order.len()), self.leaves, &p, reach, &mut found);
-        }
+    /// The tree, to be searched.
+    pub fn tree(&self) -> BoxTree<'_> {
+        BoxTree { nodes: &self.nodes, order: &self.order, boxes: &self.boxes }
     }
 
-    fn descend(
-        &self,
-        node: usize,
-        (from, to): (usize, usize),
-        leaves: usize,
-        p: &Vec3,
-        reach: f64,
-        found: &mut impl FnMut(u32),
-    ) {
-        if !close(&self.nodes[node], p, reach) {
-            return;
-        }
-        if leaves == 1 {
-            (from..to).filter(|&k| close(&self.boxes[k], p, reach)).for_each(|k| found(self.order[k]));
-            return;
-        }
-        let middle = from + (to - from) / 2;
-        self.descend(2 * node + 1, (from, middle), leaves / 2, p, reach, found);
-        self.descend(2 * node + 2, (middle, to), leaves / 2, p, reach, found);
+    /// Calls `found` with the number of each body whose box is within `reach` [m] of `p`, in the order of the tree.
+    pub fn near(&self, p: Vec3, reach: f64, found: impl FnMut(u32)) {
+        self.tree().near(&p, reach, found);
     }
 }
 
 fn none() -> [Vec3; 2] {
     [Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)]
-}
-
-/// Whether a box comes within `reach` of `p`.
-fn close([lo, hi]: &[Vec3; 2], p: &Vec3, reach: f64) -> bool {
-    let outside = |a: usize| (lo[a] - p[a]).max(p[a] - hi[a]).max(0.0);
-    let [x, y, z] = [outside(0), outside(1), outside(2)];
-    x * x + y * y + z * z <= reach * reach
 }
 
 fn fill(nodes: &mut [[Vec3; 2]], node: usize, boxes: &[[Vec3; 2]], order: &mut [u32], leaves: usize) {
@@ -99,6 +74,13 @@ fn fill(nodes: &mut [[Vec3; 2]], node: usize, boxes: &[[Vec3; 2]], order: &mut [
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Whether a box comes within `reach` of `p`.
+    fn close([lo, hi]: &[Vec3; 2], p: &Vec3, reach: f64) -> bool {
+        let outside = |a: usize| (lo[a] - p[a]).max(p[a] - hi[a]).max(0.0);
+        let [x, y, z] = [outside(0), outside(1), outside(2)];
+        x * x + y * y + z * z <= reach * reach
+    }
 
     /// Boxes of sizes from 1 mm to 1 m, against trying every one.
     #[test]

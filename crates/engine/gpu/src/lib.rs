@@ -7,6 +7,7 @@
 //! tables        what lies in the memory of the device
 //! compositions  the compositions of effects, by number
 //! threads       a contact, a particle
+//! triangles     which points of triangles are contacts of a particle
 //! lists         neighbour lists: cells, pairs, slots
 //! ```
 
@@ -21,6 +22,7 @@ pub mod compositions;
 pub mod lists;
 pub mod tables;
 pub mod threads;
+pub mod triangles;
 
 // The macros name effects by it.
 #[doc(hidden)]

@@ -9,7 +9,7 @@
 //! launch of contacts for each composition of effects, and one of particles. Tables lie in the memory of the device.
 #![expect(unsafe_code, reason = "threads share tables, of which each writes its own rows only")]
 
-use crate::tables::{DeviceBlock, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PLANE, SPHERES};
+use crate::tables::{DeviceBlock, DeviceKind, DeviceTables, IMAGES, MESH, MOVED_SPHERES, PLANE, SPHERES};
 use core::slice;
 use laws::contact::contact_loop::{act, gather};
 use laws::contact::patch::{ALONE, Bodies, PATCH, Patch};
@@ -214,7 +214,7 @@ unsafe fn partner(
         if kind.with == SPHERES {
             return has_point.then(|| (*t.points.at(number), Row4::default()));
         }
-        if kind.with == PLANE || kind.with == MOVED_SPHERES {
+        if kind.with >= MOVED_SPHERES {
             if !has_point || kind.wall >= t.walls {
                 return None;
             }
@@ -222,10 +222,11 @@ unsafe fn partner(
             let [x, y, z, radius, by_x, by_y, by_z, _] = **t.points.at::<Row>(number);
             let (home, shift) = (Vec3::new(x, y, z), Vec3::new(by_x, by_y, by_z));
             let centre = row.position();
-            let position = if kind.with == PLANE {
-                wall.on_plane(kind.plane.map(Vec3::from), centre - shift)
-            } else {
-                wall.pose.position(&home)
+            let position = match kind.with {
+                PLANE => wall.on_plane(kind.plane.map(Vec3::from), centre - shift),
+                // Found before.
+                MESH => home,
+                _ => wall.pose.position(&home),
             };
             return Some(wall.row(position, radius, shift, centre));
         }

@@ -35,6 +35,16 @@ macro_rules! entries {
 }
 gpu::laws::compositions!(entries);
 
+/// Which points of triangles are contacts.
+///
+/// # Safety
+/// As [`gpu::triangles::triangles`] says.
+#[unsafe(no_mangle)]
+pub unsafe extern "ptx-kernel" fn triangles(tables: DeviceTables, step: u32) {
+    // SAFETY: by contract.
+    unsafe { gpu::triangles::triangles(&tables, step, thread()) }
+}
+
 /// Which contacts have been made.
 ///
 /// # Safety

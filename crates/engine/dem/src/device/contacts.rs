@@ -94,7 +94,7 @@ impl Contacts {
     }
 
     /// Writes contacts into their slots, and finds those of each particle.
-    pub fn make(&mut self, work: &mut Work, model: &Model, fixed: &Fixed) -> Result<(), DeviceError> {
+    pub fn make(&mut self, work: &mut Work, model: &Model, fixed: &mut Fixed) -> Result<(), DeviceError> {
         let (count, slots) = (work.count(), self.slots.end());
         if u32::try_from(self.slots.history.max(2 * slots)).is_err() {
             let what = format!("{} contacts are more than its tables number", self.slots.len());
@@ -137,7 +137,8 @@ impl Contacts {
         work.launch("contacts_of", slots, COUNT)?;
         self.sums.make(work, after_first(work.t.contacts.starts), count + 1)?;
         work.launch("contacts_of", slots, WRITE)?;
-        work.launch("sort_contacts_of", count, 0)
+        work.launch("sort_contacts_of", count, 0)?;
+        fixed.meshes.make_room(work)
     }
 
     /// The lists that the device has; images are those of [`laws::space::cell::Cell::half_of_images`].

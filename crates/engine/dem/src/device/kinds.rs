@@ -1,11 +1,14 @@
 //! What does not change in a run, as a device knows it: kinds of contact, and the spheres of walls.
 
 use crate::device::DeviceError;
+use crate::device::meshes::Meshes;
 use crate::device::tables::Table;
 use crate::device::work::Work;
 use crate::model::{Kind, Model, With};
 use gpu::compositions::{NAMES, number};
-use gpu::tables::{Address, DeviceKind, DeviceTables, IMAGES, MOVED_SPHERES, PARTICLES, PLANE, SPHERES};
+use gpu::tables::{
+    Address, DeviceKind, DeviceTables, IMAGES, MESH, MOVED_SPHERES, PARTICLES, PLANE, SPHERES,
+};
 use laws::simd::Row4;
 
 /// Classes of pairs of particles: the second is of the same tile or of a later one, and they touch or do not.
@@ -29,6 +32,8 @@ pub struct Fixed {
     pairs: Table,
     images: Table,
     spheres: Vec<[Table; 2]>,
+    /// Triangles of walls.
+    pub meshes: Meshes,
     sent: bool,
 }
 
@@ -46,6 +51,8 @@ impl Fixed {
         t.lists.image_kinds = self.images.write(*device, &self.table_of(model, IMAGES))?;
         t.lists.kind_count = self.kinds.len() as u32;
         t.lists.materials = model.setup.materials.len() as u32;
+        self.meshes.send(work, model)?;
+        let Work { device, t: _ } = work;
         self.spheres.resize_with(model.walls.len(), Default::default);
         self.walls.clear();
         for (wall, [spheres, keys]) in model.walls.iter().zip(&mut self.spheres) {
@@ -94,6 +101,9 @@ impl Fixed {
                 With::Wall(w) => {
                     new.wall = w as u32;
                     new.with = if model.walls[w].drives() { MOVED_SPHERES } else { SPHERES };
+                    if model.walls[w].triangles().is_some() {
+                        new.with = MESH;
+                    }
                     if let Some(plane) = model.walls[w].plane() {
                         (new.with, new.plane) = (PLANE, [plane.point.into(), plane.normal.into()]);
                     }

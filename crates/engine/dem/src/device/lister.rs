@@ -60,7 +60,7 @@ impl Lister {
         self.sorter.sort(work, matches!(why, Why::Due(_)))?;
         self.send_walls(work, (model, state, lists), why)?;
         self.contacts.count(work, model, &self.fixed)?;
-        self.contacts.make(work, model, &self.fixed)?;
+        self.contacts.make(work, model, &mut self.fixed)?;
         if let Why::Due(_) = why {
             work.launch("carry", work.t.slot_count as usize, 0)?;
         }

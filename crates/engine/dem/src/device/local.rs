@@ -1,11 +1,12 @@
 //! A device that is this processor: one thread after the other, in an order that is not theirs. Tests compare its bits.
 #![expect(unsafe_code, reason = "it calls what a device runs, with tables that lie in its own memory")]
 
-use crate::device::{Device, DeviceError, LISTS, MADE, MOVES};
+use crate::device::{Device, DeviceError, LISTS, MADE, MOVES, TRIANGLES};
 use gpu::compositions::NAMES;
 use gpu::lists;
 use gpu::tables::{Address, DeviceTables};
 use gpu::threads::{made, particle};
+use gpu::triangles::triangles;
 use std::collections::BTreeMap;
 
 /// A device in the memory of this process.
@@ -21,13 +22,16 @@ pub struct Local {
 struct Line([u8; 64]);
 
 impl Local {
-    /// The table that begins there.
+    /// What lies there, from the beginning of a table on or from within.
     fn bytes(&mut self, at: Address, len: usize) -> Result<&mut [u8], DeviceError> {
         let failed =
             || DeviceError::Failed { device: "this processor".to_owned(), what: "no such memory".to_owned() };
-        let lines = self.memory.get_mut(&at.0).filter(|lines| len <= lines.len() * 64).ok_or_else(failed)?;
-        // SAFETY: lines are bytes, and `len` of them lie within these.
-        Ok(unsafe { std::slice::from_raw_parts_mut(lines.as_mut_ptr().cast(), len) })
+        let (begin, lines) = self.memory.range_mut(..=at.0).next_back().ok_or_else(failed)?;
+        let first = (at.0 - begin) as usize;
+        // SAFETY: lines are bytes, and these are all of them.
+        let bytes: &mut [u8] =
+            unsafe { std::slice::from_raw_parts_mut(lines.as_mut_ptr().cast(), lines.len() * 64) };
+        bytes.get_mut(first..).and_then(|bytes| bytes.get_mut(..len)).ok_or_else(failed)
     }
 }
 
@@ -48,6 +52,7 @@ macro_rules! functions {
             unsafe {
                 match COMPOSITIONS.get(function) {
                     Some(contacts) => contacts(tables, function as u32, step, thread),
+                    _ if function == TRIANGLES => triangles(tables, step, thread),
                     _ if function == MADE => made(tables, step, thread),
                     _ if function == MOVES => particle::<false>(tables, step, thread),
                     _ if function == MOVES + 1 => particle::<true>(tables, step, thread),

@@ -12,6 +12,7 @@ mod contacts;
 mod kinds;
 mod lister;
 mod local;
+mod meshes;
 mod refused;
 mod sorter;
 mod stepper;
@@ -28,14 +29,17 @@ use gpu::compositions::NAMES;
 use gpu::lists::LIST_FUNCTIONS;
 use gpu::tables::{Address, DeviceTables};
 
-/// Functions of a step besides contacts, after the compositions: which contacts have been made; the moves without and with rotation.
-const STEPS: [&str; 3] = ["made", "centres", "spheres"];
+/// Functions of a step besides contacts, after the compositions: which points of triangles are contacts; which contacts have been made; the moves without
+/// and with rotation.
+const STEPS: [&str; 4] = ["triangles", "made", "centres", "spheres"];
 /// Number of the first of them.
-const MADE: usize = NAMES.len();
+const TRIANGLES: usize = NAMES.len();
+/// Number of the second.
+const MADE: usize = TRIANGLES + 1;
 /// Number of the move without rotation; the next is that with it.
 const MOVES: usize = MADE + 1;
 /// Number of the first function that makes lists.
-const LISTS: usize = MADE + STEPS.len();
+const LISTS: usize = TRIANGLES + STEPS.len();
 
 /// Functions that a device must have, by number: the compositions, the others of a step, and what makes lists.
 pub fn functions() -> Vec<&'static str> {

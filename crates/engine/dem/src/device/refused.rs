@@ -2,7 +2,6 @@
 
 use crate::device::kinds::numbers_of;
 use crate::model::Model;
-use crate::setup::WallShape;
 use crate::state::State;
 use laws::effects::{ContactLaw, active};
 use laws::simd::Precision;
@@ -26,7 +25,6 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     refuse(setup.precision != Precision::Double, "contacts in single precision");
     for (body, wall) in model.walls.iter().zip(&setup.walls) {
         refuse(body.answers(), &format!("wall '{}', which follows a force or stands on a spring", wall.name));
-        refuse(matches!(wall.shape, WallShape::Mesh(_)), &format!("the triangles of wall '{}'", wall.name));
     }
     if setup.precision == Precision::Double {
         for kind in model.kinds.iter().filter(|k| numbers_of(k).is_none()) {

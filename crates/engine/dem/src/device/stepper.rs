@@ -4,7 +4,7 @@ use crate::device::lister::{Lister, Why};
 use crate::device::refused::refused;
 use crate::device::tables::{Plain, Table};
 use crate::device::work::Work;
-use crate::device::{Device, DeviceError, MADE, MOVES};
+use crate::device::{Device, DeviceError, MADE, MOVES, TRIANGLES};
 use crate::model::Model;
 use crate::neighbours::poses::periods_travelled;
 use crate::neighbours::rebuild::{adapt_skin, take_lists};
@@ -243,7 +243,7 @@ impl Stepper {
         // Contacts that last beyond touching are looked at before any of them changes.
         let made = self.lister.fixed.lasts().then_some(MADE);
         let functions: Vec<usize> = made.into_iter().chain(self.compositions.iter().copied()).collect();
-        let (mut done, start) = (0, Instant::now());
+        let (mut done, start, meshes) = (0, Instant::now(), self.lister.fixed.meshes.any);
         // From here on the device is ahead.
         self.held = None;
         loop {
@@ -254,6 +254,9 @@ impl Stepper {
             let all: Vec<WallPose> = (0..u64::from(steps)).flat_map(|step| poses(done + step)).collect();
             t.poses = self.poses.write(device, &all)?;
             for step in 0..steps {
+                if meshes {
+                    device.launch(TRIANGLES, t.particle_count as usize, t, step)?;
+                }
                 for &function in &functions {
                     device.launch(function, t.slot_count as usize, t, step)?;
                 }

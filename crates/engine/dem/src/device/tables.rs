@@ -5,7 +5,7 @@ use crate::device::{Device, DeviceError};
 use geom::motion::Pose;
 use geom::{Lattice, Vec3};
 use gpu::tables::lists::{DeviceSegment, DeviceWall, LeastRow};
-use gpu::tables::{Address, DeviceBlock, DeviceFlags, DeviceKind};
+use gpu::tables::{Address, DeviceBlock, DeviceFlags, DeviceKind, DeviceMesh};
 use laws::contact::SlotEnd;
 use laws::contact::wall_point::WallPose;
 use laws::simd::{Row, Row4};
@@ -67,6 +67,10 @@ fields! {
     DeviceKind {
         composition: u32, with: u32, numbers: u32, wall: u32, between: [u32; 2], class: u32, columns: u32,
         flips: u32, patch: u32, gap: f64, plane: [[f64; 3]; 2],
+    }
+    DeviceMesh {
+        corners: Address, doubled: Address, nodes: Address, order: Address, boxes: Address, surface: Address,
+        node_count: u32, parts: u32, surface_count: u32, pad: u32, fastest: f64, reach: f64,
     }
     DeviceFlags { stopped: u32, left_margin: u32, too_fast: u32, deep: u32, beyond: u32 }
     WallPose { pose: Pose, belt: Pose, has_belt: u64 }

@@ -3,7 +3,8 @@
 use crate::model::{Model, With};
 use crate::neighbours::{Segment, Slots, TileSlice};
 use crate::state::SleepMap;
-use crate::walls::seams::HistorySlots;
+use crate::walls::Nearby;
+use crate::walls::remembered::HistorySlots;
 use geom::Vec3;
 use geom::motion::Pose;
 use laws::contact::patch::PATCH;
@@ -165,7 +166,7 @@ impl TileSlice<'_> {
         let ledger = rows_mut(self.ledger, (s.slots.start - self.from.slot) * LEDGER, s.slots.len() * LEDGER);
         let mut slots = HistorySlots { history, active, layout, first: 0, columns, ledger };
         let pose = inputs.model.walls[wall].pose(&inputs.poses[wall]);
-        let mut from = 0;
+        let (mut from, mut nearby) = (0, Nearby::default());
         while from < s.len {
             let to = from + i[from..].iter().take_while(|&&k| k == i[from]).count();
             let row = &inputs.step.rows[i[from] as usize];
@@ -177,7 +178,7 @@ impl TileSlice<'_> {
                 row,
                 &partner[from..to],
                 (rows, spins),
-                slots.from(from),
+                (slots.from(from), &mut nearby),
             );
             from = to;
         }

@@ -225,7 +225,9 @@ fn list_walls(
             (shift_into_box(model, lists, w, pose_listed(model, state, w)), wall_margin(model, state, w));
         let around = around(model, w, &pose);
         for k in range.clone().filter(|&k| state.particles.material[k] == kind.between.0) {
-            let (position, reach) = (state.particles.home[k].vector(), state.particles.reach(k) + moves);
+            let room = wall.room(state.particles.rows[k].radius());
+            let (position, reach) =
+                (state.particles.home[k].vector(), state.particles.reach(k) + moves + room);
             for (image, shift) in around.near(&position, reach) {
                 let first = image.0 * wall.parts();
                 let add = |part| list.push(k as u32, first + part);

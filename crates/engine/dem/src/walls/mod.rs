@@ -8,19 +8,20 @@
 //! plus v_s − (v_s·n) n, with v_s that of the surface there. So a belt drives along itself and never pushes.
 
 pub(crate) mod beside;
-pub(crate) mod seams;
-mod translation;
+pub(crate) mod remembered;
+mod triangles;
 
 use crate::setup::{Mount, Servo, Wall, WallShape};
 use crate::space::wall_sphere_order;
-use crate::walls::seams::{HistorySlots, Nearest};
+use crate::walls::remembered::HistorySlots;
+pub use crate::walls::triangles::{Nearby, Triangles};
 use geom::motion::{Pose, SurfaceMotion};
-use geom::{Boxes, Grid, Motion, Plane, Vec3};
+use geom::{Grid, Motion, Plane, Vec3};
+use laws::contact::seams;
 use laws::contact::wall_point::WallPose;
 use laws::simd::{Row, Row4};
 use laws::space::images::Image;
 use laws::space::sphere::{FAR, is_away};
-use std::collections::HashSet;
 
 /// A wall, ready to be met.
 #[derive(Debug, Clone)]
@@ -59,12 +60,7 @@ enum Surface {
         original: Vec<u32>,
     },
     Plane(Plane),
-    Triangles {
-        corners: Vec<[Vec3; 3]>,
-        boxes: Boxes,
-        /// Whether each lies on one before it, and so is never touched; empty where none does.
-        doubled: Vec<bool>,
-    },
+    Triangles(Triangles),
 }
 
 impl WallBody {
@@ -73,12 +69,7 @@ impl WallBody {
         let surface = match &wall.shape {
             WallShape::Spheres(spheres) => sorted_spheres(spheres),
             WallShape::Plane(plane) => Surface::Plane(*plane),
-            WallShape::Mesh(mesh) => {
-                let corners: Vec<[Vec3; 3]> = mesh.triangles().collect();
-                let around = |t: &[Vec3; 3]| [t[0].inf(&t[1]).inf(&t[2]), t[0].sup(&t[1]).sup(&t[2])];
-                let boxes: Vec<[Vec3; 2]> = corners.iter().map(around).collect();
-                Surface::Triangles { boxes: Boxes::new(&boxes), doubled: doubled(&corners), corners }
-            }
+            WallShape::Mesh(mesh) => Surface::Triangles(Triangles::new(mesh.triangles().collect())),
         };
         let span = |axis: &Vec3| span(&wall.shape, axis);
         WallBody {
@@ -151,12 +142,17 @@ impl WallBody {
         }
     }
 
+    /// How much farther than it touches a particle of `radius` [m] is listed with it [m]: which points of a mesh are contacts depends on those nearby.
+    pub fn room(&self, radius: f64) -> f64 {
+        if self.triangles().is_some() { seams::room(radius, self.reach) } else { 0.0 }
+    }
+
     /// Number of its spheres or triangles.
     pub fn parts(&self) -> u32 {
         match &self.surface {
             Surface::Spheres { centres, .. } => centres.len() as u32,
             Surface::Plane(_) => 1,
-            Surface::Triangles { corners, .. } => corners.len() as u32,
+            Surface::Triangles(triangles) => triangles.corners.len() as u32,
         }
     }
 
@@ -188,19 +184,7 @@ impl WallBody {
                     found(0);
                 }
             }
-            Surface::Triangles { corners, boxes, doubled } => {
-                let mut near = Vec::new();
-                boxes.near(p, reach, |k| near.push(k));
-                if !doubled.is_empty() {
-                    near.retain(|k| !doubled[*k as usize]);
-                }
-                near.sort_unstable();
-                for k in near {
-                    if Nearest::of(corners[k as usize], p).way.norm_squared() < reach * reach {
-                        found(k);
-                    }
-                }
-            }
+            Surface::Triangles(triangles) => triangles.near(p, reach, found),
         }
     }
 
@@ -220,6 +204,26 @@ impl WallBody {
         if let Surface::Spheres { largest, .. } = &self.surface { *largest } else { 0.0 }
     }
 
+    /// Largest gap at which a contact that was made still acts [m].
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// Numbers of the walls that are one surface with this one, which has a number of its own; none where no other is.
+    pub fn surface_of(&self, own: usize) -> Vec<u32> {
+        let mut all = self.beside.clone();
+        if !all.is_empty() {
+            all.push(own);
+            all.sort_unstable();
+        }
+        all.into_iter().map(|wall| wall as u32).collect()
+    }
+
+    /// Its triangles; `None` of other walls.
+    pub fn triangles(&self) -> Option<&Triangles> {
+        if let Surface::Triangles(triangles) = &self.surface { Some(triangles) } else { None }
+    }
+
     /// As a plane at t = 0; `None` of other walls.
     pub fn plane(&self) -> Option<&Plane> {
         if let Surface::Plane(plane) = &self.surface { Some(plane) } else { None }
@@ -234,7 +238,7 @@ impl WallBody {
         row: &Row,
         partners: &[u32],
         (rows, spins): (&mut [Row], &mut [Row4]),
-        mut slots: HistorySlots,
+        (mut slots, nearby): (HistorySlots, &mut Nearby),
     ) {
         if is_away(row) {
             rows.fill(FAR[0]);
@@ -262,22 +266,18 @@ impl WallBody {
                     put(k, wall.on_plane([plane.point, plane.normal], centre - shift(k)), 0.0);
                 }
             }
-            Surface::Triangles { corners, .. } => {
+            Surface::Triangles(Triangles { corners, .. }) => {
                 let local = |k: usize| pose.home(&(centre - shift(k)));
-                let mut near: Vec<Nearest> =
-                    (0..partners.len()).map(|k| Nearest::of(corners[part(k)], local(k))).collect();
                 let way = if self.ahead > 0.0 {
                     self.ahead * (row.velocity().norm() + self.fastest())
                 } else {
                     0.0
                 };
-                if self.beside.is_empty() {
-                    seams::count(&mut near, row.radius(), self.reach + way);
-                } else {
-                    let image = |k: usize| (partners[k], local(k));
-                    beside::count(walls, own, &mut near, image, (row.radius(), self.reach + way));
-                }
-                slots.take_over(&near, row.radius());
+                let reach = self.reach + way;
+                let image = |k: usize| (partners[k], local(k));
+                let all = (0..partners.len()).map(|k| (corners[part(k)], local(k)));
+                let near = nearby.find(all, (walls, own), image, (row.radius(), reach));
+                slots.take_over(near, row.radius());
                 for (k, point) in near.iter().enumerate() {
                     // What is no contact of its own is put out of reach.
                     let far = Vec3::repeat(FAR[1][0]);
@@ -306,21 +306,6 @@ fn sorted_spheres(spheres: &[(Vec3, f64)]) -> Surface {
     Surface::Spheres { centres, radii, grid, largest, original: order }
 }
 
-/// Which triangles have the corners of one before them, in any order, as those of drawings whose faces are there from both sides: one that is touched in
-/// the other's place would begin without its contact history. Empty where none has.
-fn doubled(corners: &[[Vec3; 3]]) -> Vec<bool> {
-    let mut seen = HashSet::with_capacity(corners.len());
-    // + 0 makes one zero of two.
-    let bits = |v: &Vec3| [v.x, v.y, v.z].map(|x| (x + 0.0).to_bits());
-    let again = |triangle: &[Vec3; 3]| {
-        let mut key = triangle.each_ref().map(bits);
-        key.sort_unstable();
-        !seen.insert(key)
-    };
-    let doubled: Vec<bool> = corners.iter().map(again).collect();
-    if doubled.contains(&true) { doubled } else { Vec::new() }
-}
-
 /// Lowest and highest corner; a plane has none along the axes that lie in it, so that it has no image there.
 fn bounds(surface: &Surface) -> [Vec3; 2] {
     match surface {
@@ -333,7 +318,7 @@ fn bounds(surface: &Surface) -> [Vec3; 2] {
             let across = plane.normal.map(|n| if n.abs() > 1e-9 { f64::INFINITY } else { f64::NAN });
             [-across, across]
         }
-        Surface::Triangles { boxes, .. } => boxes.bounds(),
+        Surface::Triangles(triangles) => triangles.boxes.bounds(),
     }
 }
 

@@ -33,7 +33,14 @@ fn no_wall_is_met_far_away() {
             let slots = HistorySlots { history, active, layout, first: 0, columns: 0, ledger };
             let pose = body.pose(&wall.motion.pose(0.0));
             let walls = (&[][..], 0);
-            body.contact_points(walls, (&pose, &Vec3::zeros()), &row, &[0], (&mut found, &mut []), slots);
+            body.contact_points(
+                walls,
+                (&pose, &Vec3::zeros()),
+                &row,
+                &[0],
+                (&mut found, &mut []),
+                (slots, &mut Nearby::default()),
+            );
             let square: f64 = (0..3).map(|a| (found[0][a] - row[a]).powi(2)).sum();
             assert!(square.is_finite() && square > 1e200, "{:?}, row {k}: {square}", wall.shape);
         }

@@ -3,7 +3,7 @@
 use super::sort::sort;
 use super::{WRITE, add, run};
 use crate::tables::lists::{DeviceSegment, DeviceWall};
-use crate::tables::{DeviceBlock, DeviceKind, DeviceTables, IMAGES, PARTICLES, PLANE, SPHERES};
+use crate::tables::{DeviceBlock, DeviceKind, DeviceTables, IMAGES, MESH, PARTICLES, PLANE, SPHERES};
 use laws::contact::SlotEnd;
 use laws::contact::wall_point::WallPose;
 use laws::simd::{BLOCK, Row, Row4};
@@ -169,6 +169,27 @@ pub unsafe fn sort_contacts_of(t: &DeviceTables, _: u32, k: usize) {
     }
 }
 
+/// Counts the triangles that a particle is listed with.
+///
+/// # Safety
+/// Tables are in place.
+#[inline(always)]
+pub unsafe fn triangles_of(t: &DeviceTables, _: u32, k: usize) {
+    if k > t.particle_count as usize {
+        return;
+    }
+    let mut count = 0;
+    // SAFETY: by contract.
+    unsafe {
+        let own = if k < t.particle_count as usize { run(t.contacts.starts, k) } else { 0..0 };
+        for entry in own {
+            let end: SlotEnd = *t.contacts.entries.at(entry);
+            count += u32::from(!end.is_second() && kind_at(t, end.slot()).with == MESH);
+        }
+        *t.triangle_starts.at(k) = count;
+    }
+}
+
 /// What a contact that is not between two particles needs in each step: see [`DeviceTables::points`].
 ///
 /// # Safety
@@ -199,7 +220,7 @@ pub unsafe fn points(t: &DeviceTables, _: u32, slot: usize) {
         }
         let wall: &DeviceWall = &*l.walls.at(kind.wall as usize);
         let shift = Image(partner / wall.parts).shift(&wall.around.period);
-        if kind.with == PLANE {
+        if kind.with == PLANE || kind.with == MESH {
             *point = at_rest((Vec3::zeros(), 0.0), shift);
             return;
         }

@@ -34,7 +34,7 @@ macro_rules! lists {
         $then! {
             margins boxes fold count_reach near_reach keys digits spread permute cell_starts spots
             scan_sums scan_down common_pairs wide_pairs image_pairs wall_parts class_starts
-            clear_slots blocks sort_class contacts_of sort_contacts_of carry points
+            clear_slots blocks sort_class contacts_of sort_contacts_of triangles_of carry points
         }
     };
 }
@@ -67,7 +67,7 @@ unsafe fn add(counter: *mut u32, by: u32) -> u32 {
 /// # Safety
 /// The table has that row and one more.
 #[inline(always)]
-unsafe fn run(starts: Address, k: usize) -> core::ops::Range<usize> {
+pub(crate) unsafe fn run(starts: Address, k: usize) -> core::ops::Range<usize> {
     // SAFETY: by contract.
     unsafe { *starts.at::<u32>(k) as usize..*starts.at::<u32>(k + 1) as usize }
 }

@@ -3,10 +3,11 @@
 use super::near::Sorted;
 use super::{WRITE, add};
 use crate::tables::lists::DeviceWall;
-use crate::tables::{Address, DeviceKind, DeviceTables, PLANE, SPHERES};
+use crate::tables::{Address, DeviceKind, DeviceMesh, DeviceTables, MESH, PLANE, SPHERES};
+use laws::contact::seams::{self, Nearest};
 use laws::simd::{Row, Row4};
 use laws::space::margins::touched;
-use primitives::Vec3;
+use primitives::{BoxTree, Vec3};
 
 /// Pairs that are put at once.
 const FOUND: usize = 12;
@@ -233,6 +234,19 @@ unsafe fn put_image(t: &DeviceTables, mode: u32, (i, j): (usize, usize), image: 
     }
 }
 
+/// The tree of the triangles of a wall.
+///
+/// # Safety
+/// Tables are in place.
+#[inline(always)]
+unsafe fn triangles<'a>(t: &'a DeviceTables, mesh: &DeviceMesh) -> BoxTree<'a> {
+    // SAFETY: by contract.
+    unsafe {
+        let (nodes, order) = (t.table(mesh.nodes, mesh.node_count), t.table(mesh.order, mesh.parts));
+        BoxTree { nodes, order, boxes: t.table(mesh.boxes, mesh.parts) }
+    }
+}
+
 /// Parts of walls near a particle.
 ///
 /// # Safety
@@ -252,7 +266,10 @@ pub unsafe fn wall_parts(t: &DeviceTables, mode: u32, k: usize) {
                 continue;
             }
             let wall: &DeviceWall = &*t.lists.walls.at(kind.wall as usize);
-            let reach = row.radius() + home[3] + wall.margin;
+            let mesh: DeviceMesh =
+                if kind.with == MESH { *t.meshes.at(kind.wall as usize) } else { DeviceMesh::default() };
+            let room = if kind.with == MESH { seams::room(row.radius(), mesh.reach) } else { 0.0 };
+            let reach = row.radius() + home[3] + wall.margin + room;
             for (image, shift) in wall.around.near(&position, reach) {
                 let (row, class) = row_of(t, k, kind.class);
                 let put = |part: usize| {
@@ -269,6 +286,19 @@ pub unsafe fn wall_parts(t: &DeviceTables, mode: u32, k: usize) {
                     if distance < reach && (image.0 == 0 || distance > -reach) {
                         put(0);
                     }
+                    continue;
+                }
+                if kind.with == MESH {
+                    triangles(t, &mesh).near(&p, reach, |part| {
+                        let part = part as usize;
+                        let is_doubled =
+                            mesh.doubled != Address::default() && *mesh.doubled.at::<u8>(part) != 0;
+                        let close =
+                            || Nearest::of(*mesh.corners.at(part), p).way.norm_squared() < reach * reach;
+                        if !is_doubled && close() {
+                            put(part);
+                        }
+                    });
                     continue;
                 }
                 let (lattice, keys, starts) = (&wall.lattice, wall.keys, Address::default());

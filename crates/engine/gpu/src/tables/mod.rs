@@ -48,6 +48,38 @@ pub const SPHERES: u32 = 2;
 pub const MOVED_SPHERES: u32 = 3;
 /// A plane.
 pub const PLANE: u32 = 4;
+/// Triangles.
+pub const MESH: u32 = 5;
+
+/// The triangles of a wall, as at t = 0.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct DeviceMesh {
+    /// Three corners of each [m].
+    pub corners: Address,
+    /// Whether each lies on one before it, a byte; 0 where none does.
+    pub doubled: Address,
+    /// Tree of their boxes ([`primitives::BoxTree`]).
+    pub nodes: Address,
+    /// Numbers of the triangles in the order of the tree, four bytes.
+    pub order: Address,
+    /// Their boxes in that order.
+    pub boxes: Address,
+    /// Numbers of the walls that are one surface with this one, four bytes, in order and with itself.
+    pub surface: Address,
+    /// How many nodes the tree has.
+    pub node_count: u32,
+    /// How many triangles.
+    pub parts: u32,
+    /// How many walls are one surface with it; 0: no other is.
+    pub surface_count: u32,
+    /// Nothing.
+    pub pad: u32,
+    /// Upper bound of the speed of the wall [m/s].
+    pub fastest: f64,
+    /// Largest gap at which a contact that was made still acts [m].
+    pub reach: f64,
+}
 
 /// A block of slots.
 #[derive(Debug, Clone, Copy, Default)]
@@ -97,6 +129,10 @@ pub struct DeviceTables {
     pub point_count: u32,
     /// Number of words of history.
     pub history_count: u32,
+    /// Number of listed triangles of all particles.
+    pub triangle_count: u32,
+    /// Nothing.
+    pub pad: u32,
     /// Columns of the particles.
     pub particles: ParticleTables,
     /// Columns of the contacts.
@@ -110,10 +146,18 @@ pub struct DeviceTables {
     /// Torque of each contact besides; none where no effect makes any.
     pub moments: Address,
     /// [`Row`] of each contact that is not between two particles: of its contact point on wall spheres at rest; else centre and radius of the wall sphere as
-    /// at t = 0, and the shift of the image.
+    /// at t = 0, or the point of a triangle now, and the shift of the image.
     pub points: Address,
     /// [`WallPose`] of each wall, in each step of the launch.
     pub poses: Address,
+    /// [`DeviceMesh`] of each wall.
+    pub meshes: Address,
+    /// First of the rows below of each particle, and one more: it has one for each listed triangle.
+    pub triangle_starts: Address,
+    /// [`laws::contact::seams::Nearest`]: memory of a step.
+    pub nearest: Address,
+    /// [`laws::contact::seams::Member`]: likewise.
+    pub members: Address,
     /// [`DeviceKind`] of each kind of contact.
     pub kinds: Address,
     /// Numbers of their effects.

@@ -7,8 +7,10 @@ pub mod contact_loop;
 pub mod damped_mass;
 pub mod motion;
 pub mod patch;
+pub mod seams;
 pub mod sums;
 pub mod touch;
+mod translation;
 pub mod wall_point;
 pub mod wrenches;
 

@@ -1,5 +1,6 @@
 //! A device whose memory is damaged stops the run: no thread reads or writes beyond a table.
 
+use super::meshes::drawn;
 use super::{advance, every_composition, shaken, there, trough};
 use crate::device::{Device, DeviceError, Local, functions};
 use crate::{Halt, Setup};
@@ -78,6 +79,16 @@ fn numbers_beyond_their_tables_stop_the_run() {
         ("slots of classes", "common_pairs", Some(WRITE), |t| (t.lists.class_slots, 64)),
         ("slots of classes of walls", "wall_parts", Some(WRITE), |t| (t.lists.class_slots, 64)),
     ];
+    let of_meshes: [(&str, Damage); 3] = [
+        ("starts of triangles", |t| (Address(t.triangle_starts.0 + 4), 4)),
+        ("blocks", |t| (t.contacts.blocks, 3 * words(t.slot_count / laws::simd::BLOCK as u32))),
+        ("entries", |t| (t.contacts.entries, words(t.slot_count))),
+    ];
+    for (what, damage) in of_meshes {
+        let device = Damaged { local: Local::default(), damage, before: "triangles", mode: None, calls: 0 };
+        let halt = advance(&mut there(drawn(1), device), 1200).expect_err(what);
+        assert!(halt.to_string().contains("its memory is damaged"), "{what}: {halt}");
+    }
     for (what, before, mode, damage) in cases {
         for make in [trough as fn(_) -> Setup, shaken] {
             let device = Damaged { local: Local::default(), damage, before, mode, calls: 0 };

@@ -9,7 +9,8 @@
 //! angle. Two faces of one plane push like one. Where a foot crosses a concave seam, its face does not bear yet as long as δ < r/(1 + cos θ), so that nothing jumps;
 //! facets tend to the surface that they stand for. At a right angle of a linear law F(q) is the sum of both forces.
 
-use geom::Vec3;
+use super::seams::Member;
+use primitives::Vec3;
 
 /// Cosine of the angle between normals up to which points of a wall are one contact [–]: 45.6°, so that all corners of an octagon are.
 const CREASE: f64 = 0.7;
@@ -17,32 +18,42 @@ const CREASE: f64 = 0.7;
 const LEAST_PAIR: f64 = 1e-9;
 const LEAST_TRIPLE: f64 = 1e-14;
 
-/// A point of a group: its normal, towards the particle [–], and its overlap [m].
+/// A point of a group.
 #[derive(Debug, Clone, Copy)]
+#[repr(C)]
 pub struct Face {
+    /// Its normal, towards the particle [–].
     pub normal: Vec3,
+    /// Its overlap [m].
     pub overlap: f64,
 }
 
-/// Which of some points are one contact: for each the first of its group.
-pub fn groups(faces: &[Face]) -> Vec<usize> {
-    let mut group: Vec<usize> = (0..faces.len()).collect();
-    for a in 0..faces.len() {
+/// Finds which of some points are one contact: each takes the number of the first of its group. `normal` tells that of the point at a place.
+#[inline(always)]
+pub fn groups(points: &mut [Member], normal: impl Fn(&Member) -> Vec3) {
+    for (k, point) in (0..).zip(&mut *points) {
+        point.group = k;
+    }
+    for a in 0..points.len() {
         for b in 0..a {
-            if faces[a].normal.dot(&faces[b].normal) > CREASE {
-                let (old, new) = (group[a].max(group[b]), group[a].min(group[b]));
-                group.iter_mut().filter(|g| **g == old).for_each(|g| *g = new);
+            if normal(&points[a]).dot(&normal(&points[b])) > CREASE {
+                let (a, b) = (points[a].group, points[b].group);
+                let (old, new) = (a.max(b), a.min(b));
+                points.iter_mut().filter(|p| p.group == old).for_each(|p| p.group = new);
             }
         }
     }
-    group
 }
 
 /// u [m] of the points of a group, deepest first, and the one that bears most of it, as an index; `None` where the deepest bears alone.
-pub fn shortest(faces: &[Face]) -> Option<(Vec3, usize)> {
-    let deepest = faces.first()?.overlap.max(0.0);
+#[inline(always)]
+pub fn shortest(count: usize, face: impl Fn(usize) -> Face) -> Option<(Vec3, usize)> {
+    if count < 2 {
+        return None;
+    }
+    let deepest = face(0).overlap.max(0.0);
     let (mut longest, mut best) = (deepest * deepest, None);
-    if faces.len() < 2 || deepest == 0.0 {
+    if deepest == 0.0 {
         return None;
     }
     let mut offer = |found: Option<(Vec3, usize)>| {
@@ -50,11 +61,11 @@ pub fn shortest(faces: &[Face]) -> Option<(Vec3, usize)> {
             (longest, best) = (u.norm_squared(), Some((u, most)));
         }
     };
-    for a in 0..faces.len() {
-        for b in a + 1..faces.len() {
-            offer(pair(faces, [a, b]));
-            for c in b + 1..faces.len() {
-                offer(triple(faces, [a, b, c]));
+    for a in 0..count {
+        for b in a + 1..count {
+            offer(pair([face(a), face(b)], [a, b]));
+            for c in b + 1..count {
+                offer(triple([face(a), face(b), face(c)], [a, b, c]));
             }
         }
     }
@@ -62,8 +73,8 @@ pub fn shortest(faces: &[Face]) -> Option<(Vec3, usize)> {
 }
 
 /// u of two that bear, where both do.
-fn pair(faces: &[Face], at: [usize; 2]) -> Option<(Vec3, usize)> {
-    let [a, b] = at.map(|k| faces[k]);
+#[inline(always)]
+fn pair([a, b]: [Face; 2], at: [usize; 2]) -> Option<(Vec3, usize)> {
     let cosine = a.normal.dot(&b.normal);
     let square = a.normal.cross(&b.normal).norm_squared();
     let shares = [a.overlap - cosine * b.overlap, b.overlap - cosine * a.overlap];
@@ -75,8 +86,8 @@ fn pair(faces: &[Face], at: [usize; 2]) -> Option<(Vec3, usize)> {
 }
 
 /// u of three that bear, where all do.
-fn triple(faces: &[Face], at: [usize; 3]) -> Option<(Vec3, usize)> {
-    let of = at.map(|k| faces[k]);
+#[inline(always)]
+fn triple(of: [Face; 3], at: [usize; 3]) -> Option<(Vec3, usize)> {
     let across = [1, 2, 0].map(|k: usize| of[k].normal.cross(&of[(k + 1) % 3].normal));
     let volume = of[0].normal.dot(&across[0]);
     if volume * volume < LEAST_TRIPLE {
@@ -91,6 +102,18 @@ fn triple(faces: &[Face], at: [usize; 3]) -> Option<(Vec3, usize)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    fn shortest_of(faces: &[Face]) -> Option<(Vec3, usize)> {
+        shortest(faces.len(), |k| faces[k])
+    }
+
+    fn groups_of(faces: &[Face]) -> Vec<u32> {
+        let mut points: Vec<Member> = (0..faces.len() as u32).map(|at| Member { at, group: 0 }).collect();
+        groups(&mut points, |m| faces[m.at as usize].normal);
+        points.iter().map(|m| m.group).collect()
+    }
 
     fn faces(of: &[(Vec3, f64)]) -> Vec<Face> {
         of.iter().map(|&(n, overlap)| Face { normal: n.normalize(), overlap }).collect()
@@ -113,7 +136,7 @@ mod tests {
                 })
                 .collect();
             found.sort_by(|a, b| b.overlap.total_cmp(&a.overlap));
-            let several = shortest(&found);
+            let several = shortest_of(&found);
             let u = several.map_or(found[0].normal * found[0].overlap, |(u, _)| u);
             let (mut x, mut corrections) = (Vec3::zeros(), vec![Vec3::zeros(); n]);
             for _ in 0..20_000 {
@@ -131,15 +154,15 @@ mod tests {
 
     #[test]
     fn one_plane_pushes_once_and_a_right_angle_as_both() {
-        assert_eq!(shortest(&faces(&[(Vec3::z(), 0.1), (Vec3::z(), 0.1)])), None);
-        let (u, _) = shortest(&faces(&[(Vec3::x(), 0.3), (Vec3::z(), 0.2)])).expect("two");
+        assert_eq!(shortest_of(&faces(&[(Vec3::z(), 0.1), (Vec3::z(), 0.1)])), None);
+        let (u, _) = shortest_of(&faces(&[(Vec3::x(), 0.3), (Vec3::z(), 0.2)])).expect("two");
         assert!((u - Vec3::new(0.3, 0.0, 0.2)).norm() < 1e-15, "{u}");
     }
 
     #[test]
     fn groups_are_joined_through_faces_between() {
         let at = |degrees: f64| (Vec3::new(degrees.to_radians().sin(), 0.0, degrees.to_radians().cos()), 0.1);
-        assert_eq!(groups(&faces(&[at(0.0), at(80.0), at(40.0), at(170.0)])), [0, 0, 0, 3]);
-        assert_eq!(groups(&faces(&[at(0.0), at(80.0)])), [0, 1]);
+        assert_eq!(groups_of(&faces(&[at(0.0), at(80.0), at(40.0), at(170.0)])), [0, 0, 0, 3]);
+        assert_eq!(groups_of(&faces(&[at(0.0), at(80.0)])), [0, 1]);
     }
 }
