@@ -21,6 +21,7 @@ use laws::contact::{
 };
 use laws::effects::Effect;
 use laws::simd::{BLOCK, Each, FORCE_AND_MOMENT, Row, Row4, TORQUE};
+use laws::slowing::{Moved, Turned, has_left};
 use primitives::Vec3;
 
 /// Numbers of history that a composition keeps at most.
@@ -244,12 +245,12 @@ unsafe fn partner(
     }
 }
 
-/// Sums the wrenches on a particle, and moves it; in step `step` of a launch.
+/// Sums the wrenches on a particle, and moves it; a fluid and local damping slow it where `SLOWED`. In step `step` of a launch.
 ///
 /// # Safety
 /// Tables are in place and hold what they say; no other thread has this particle, and none computes contacts meanwhile.
 #[inline(always)]
-pub unsafe fn particle<const ROTATES: bool>(t: &DeviceTables, step: u32, k: usize) {
+pub unsafe fn particle<const ROTATES: bool, const SLOWED: bool>(t: &DeviceTables, step: u32, k: usize) {
     // SAFETY: by contract; this thread alone writes to the rows of its particle.
     unsafe {
         if k >= t.particle_count as usize || t.is_over(step) {
@@ -292,14 +293,31 @@ pub unsafe fn particle<const ROTATES: bool>(t: &DeviceTables, step: u32, k: usiz
         let sums = WrenchSums { first: 0, layout: t.layout(), sums };
         let sum: Sum<Each> = sums.sum::<f64, Each, ROTATES>(0, row.radius());
         let mover = Mover::<Each>::new(&t.drive);
-        let found = mover.advance(row, &mut *t.particles.acceleration.at(k), &*t.particles.home.at(k), &sum);
+        let (acceleration, home): (&mut Row4, &Row4) =
+            (&mut *t.particles.acceleration.at(k), &*t.particles.home.at(k));
+        let was = *row;
+        let mut found = mover.advance(row, acceleration, home, &sum);
+        let mut turned = None;
         if ROTATES {
-            mover.turn(
-                row,
-                &mut *t.particles.spins.at(k),
-                &mut *t.particles.angular_acceleration.at(k),
-                &sum,
-            );
+            let (spin, acceleration): (&mut Row4, &mut Row4) =
+                (&mut *t.particles.spins.at(k), &mut *t.particles.angular_acceleration.at(k));
+            let was = *spin;
+            mover.turn(row, spin, acceleration, &sum);
+            turned = Some((spin, acceleration, was));
+        }
+        if SLOWED {
+            let MoveInputs { dt, ahead, gravity, .. } = t.drive;
+            let mut moved = Moved { row, acceleration, was: &was };
+            if t.has_fluid != 0 {
+                moved.drag(&t.fluid, &gravity.into(), dt);
+                found.left_margin |= has_left(moved.row, home, ahead);
+            }
+            if t.damping > 0.0 {
+                let turned =
+                    turned.as_mut().map(|(spin, acceleration, was)| Turned { spin, acceleration, was });
+                moved.damp(t.damping, &Vec3::zeros(), turned, dt);
+                found.left_margin |= has_left(moved.row, home, ahead);
+            }
         }
         for (place, found) in [(1, found.left_margin), (2, found.too_fast)] {
             if found {

@@ -7,6 +7,7 @@
 //! space         periods and images, margins, spheres
 //! effects       what a contact does: one file an effect, which describes itself
 //! contact       the contact loop: gather → geometry → effects → scatter; sums in fixed order; the move
+//! slowing       a fluid and local damping, behind the move
 //! ```
 
 #![deny(missing_docs)]
@@ -21,4 +22,5 @@ pub mod contact;
 pub mod effects;
 pub mod float;
 pub mod simd;
+pub mod slowing;
 pub mod space;

@@ -55,24 +55,24 @@ pub unsafe extern "ptx-kernel" fn made(tables: DeviceTables, step: u32) {
     unsafe { gpu::threads::made(&tables, step, thread()) }
 }
 
-/// Sums and moves, without rotation.
-///
-/// # Safety
-/// As [`particle`] says.
-#[unsafe(no_mangle)]
-pub unsafe extern "ptx-kernel" fn centres(tables: DeviceTables, step: u32) {
-    // SAFETY: by contract.
-    unsafe { particle::<false>(&tables, step, thread()) }
+macro_rules! moves {
+    ($($name:ident: $rotates:literal, $slowed:literal;)*) => { $(
+        /// Sums and moves, with or without rotation, and what slows particles besides contacts.
+        ///
+        /// # Safety
+        /// As [`particle`] says.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "ptx-kernel" fn $name(tables: DeviceTables, step: u32) {
+            // SAFETY: by contract.
+            unsafe { particle::<$rotates, $slowed>(&tables, step, thread()) }
+        }
+    )* };
 }
-
-/// Sums and moves, with rotation.
-///
-/// # Safety
-/// As [`particle`] says.
-#[unsafe(no_mangle)]
-pub unsafe extern "ptx-kernel" fn spheres(tables: DeviceTables, step: u32) {
-    // SAFETY: by contract.
-    unsafe { particle::<true>(&tables, step, thread()) }
+moves! {
+    centres: false, false;
+    spheres: true, false;
+    slowed_centres: false, true;
+    slowed_spheres: true, true;
 }
 
 macro_rules! list_entries {

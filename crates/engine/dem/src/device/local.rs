@@ -54,8 +54,10 @@ macro_rules! functions {
                     Some(contacts) => contacts(tables, function as u32, step, thread),
                     _ if function == TRIANGLES => triangles(tables, step, thread),
                     _ if function == MADE => made(tables, step, thread),
-                    _ if function == MOVES => particle::<false>(tables, step, thread),
-                    _ if function == MOVES + 1 => particle::<true>(tables, step, thread),
+                    _ if function == MOVES => particle::<false, false>(tables, step, thread),
+                    _ if function == MOVES + 1 => particle::<true, false>(tables, step, thread),
+                    _ if function == MOVES + 2 => particle::<false, true>(tables, step, thread),
+                    _ if function == MOVES + 3 => particle::<true, true>(tables, step, thread),
                     _ => list_thread(function - LISTS, tables, step, thread),
                 }
             }

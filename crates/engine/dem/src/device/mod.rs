@@ -30,8 +30,8 @@ use gpu::lists::LIST_FUNCTIONS;
 use gpu::tables::{Address, DeviceTables};
 
 /// Functions of a step besides contacts, after the compositions: which points of triangles are contacts; which contacts have been made; the moves without
-/// and with rotation.
-const STEPS: [&str; 4] = ["triangles", "made", "centres", "spheres"];
+/// and with rotation, and these where something slows particles besides contacts.
+const STEPS: [&str; 6] = ["triangles", "made", "centres", "spheres", "slowed_centres", "slowed_spheres"];
 /// Number of the first of them.
 const TRIANGLES: usize = NAMES.len();
 /// Number of the second.

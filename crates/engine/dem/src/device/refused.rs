@@ -19,8 +19,6 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     refuse(!state.zones.none(), "grains that enter or leave while it runs");
     refuse(state.sleepers.is_some(), "sleep");
     refuse(state.strained.is_some(), "a strained domain");
-    refuse(setup.drag.is_some(), "a fluid");
-    refuse(setup.local_damping.is_some(), "local damping");
     refuse(setup.ledger || setup.guards.energy.is_finite(), "the energy ledger");
     refuse(setup.precision != Precision::Double, "contacts in single precision");
     for (body, wall) in model.walls.iter().zip(&setup.walls) {

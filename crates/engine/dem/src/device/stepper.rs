@@ -128,6 +128,9 @@ impl Stepper {
         let Stepper { device, tables: t, lister, .. } = self;
         let (p, to, device) = (&state.particles, &mut lister.sorter.particles, device.as_mut());
         t.drive = model.move_inputs();
+        (t.has_fluid, t.fluid) =
+            (u32::from(model.setup.drag.is_some()), model.setup.drag.unwrap_or_default());
+        t.damping = model.setup.local_damping.unwrap_or(0.0);
         t.overlap_limit = model.setup.guards.overlap;
         t.particle_count = p.len() as u32;
         (t.rotates, t.torques) = (u32::from(model.rotates), u32::from(state.torques(model)));
@@ -239,7 +242,8 @@ impl Stepper {
         poses: impl Fn(u64) -> Vec<WallPose>,
         mut goes_on: impl FnMut(u64) -> bool,
     ) -> Result<Found, DeviceError> {
-        let moves = MOVES + self.tables.rotates as usize;
+        let slowed = self.tables.has_fluid != 0 || self.tables.damping > 0.0;
+        let moves = MOVES + self.tables.rotates as usize + 2 * usize::from(slowed);
         // Contacts that last beyond touching are looked at before any of them changes.
         let made = self.lister.fixed.lasts().then_some(MADE);
         let functions: Vec<usize> = made.into_iter().chain(self.compositions.iter().copied()).collect();

@@ -139,6 +139,27 @@ fn the_same_bits_with_every_composition() {
     }
 }
 
+/// In a fluid of either law, with local damping, and with both.
+#[test]
+fn the_same_bits_where_something_slows_them() {
+    let fluid =
+        |law| Drag { law, viscosity: 0.05, density: 900.0, velocity: Vec3::y() * 0.2, buoyancy: true };
+    let cases = [
+        (Some(fluid(DragLaw::Stokes)), None),
+        (Some(fluid(DragLaw::SchillerNaumann)), Some(0.3)),
+        (None, Some(0.7)),
+    ];
+    for (n, (drag, local_damping)) in cases.into_iter().enumerate() {
+        for effects in [every_composition()[0], every_composition()[5]] {
+            let setup = || Setup { drag, local_damping, ..shaken(effects) };
+            let mut device = there(setup(), Local::default());
+            advance(&mut device, 600).expect("within the guards");
+            assert!(bits(&mut device) == bits(&mut here(setup(), 600)), "{n} {effects:?}");
+            assert!(bits(&mut device) != bits(&mut here(shaken(effects), 600)), "{n}: it does nothing");
+        }
+    }
+}
+
 /// Grains of two sizes, 1 : 6, in a small box that is periodic along all axes: some have two images of one partner. A small floe of wall spheres drifts
 /// through it for several periods, over a floor at rest whose spheres reach beyond the box.
 fn cube(effects: Effects) -> Setup {
@@ -336,11 +357,10 @@ fn a_guard_stops_it_in_the_same_step_for_the_same_reason() {
 fn what_it_does_not_compute_is_named() {
     let mut setup = trough(every_composition()[5]);
     setup.ledger = true;
-    setup.sleep = None;
-    setup.local_damping = Some(0.1);
+    setup.sleep = Some(Sleep { speed: 1e-3, time: 0.1, wake: 1.0 });
     let mut sim = Simulation::new(setup).expect("sound");
     let refused = sim.use_device(Box::new(Local::default())).expect_err("it does not compute that");
-    assert_eq!(refused, ["local damping", "the energy ledger"]);
+    assert_eq!(refused, ["sleep", "the energy ledger"]);
 }
 
 /// A device that fails at one of its calls.

@@ -19,12 +19,12 @@
 use crate::model::bonds::springs::numbers;
 use crate::model::{Halt, Model, With};
 use crate::neighbours::NeighbourLists;
-use crate::passes::moved::has_left;
 use crate::state::clumps::FREE;
 use crate::state::particles::kick_row;
 use crate::state::{CellState, ClumpMotion, Held, ListStatus, RigidClumps, State};
 use crate::threads::{FEW, share};
 use geom::Vec3;
+use laws::slowing::has_left;
 use laws::space::cell::Cell;
 use nalgebra::Matrix3;
 

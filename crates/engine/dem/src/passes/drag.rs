@@ -1,16 +1,6 @@
-//! A fluid at uniform velocity: its drag on every particle, and its lift.
+//! A fluid at uniform velocity: its drag on every particle, and its lift ([`laws::slowing::fluid`] has the formulas).
 //!
-//! ```text
-//! F = −6 π μ r w                                  "stokes", w = v − u
-//! F = −6 π μ r w (1 + 0.15 Re^0.687)              "schiller-naumann", Re = 2 r ρ_f |w| / μ < 1000
-//! F = −½ · 0.44 ρ_f π r² |w| w                     from there on
-//! F_b = −ρ_f V g                                  buoyancy
-//! v* ← v* + 3/2 a Δt,  x ← x + a Δt²,  a_n ← a_n + a
-//! ```
-//!
-//! Stokes (1851), Trans. Camb. Phil. Soc. 9; Schiller & Naumann (1933), Z. Ver. Dtsch. Ing. 77; w is the predicted velocity of the
-//! instant, as for contacts. The last line is what an acceleration a adds to the move of [`laws::contact::motion`]: a pass behind it, so
-//! that a scene without a fluid runs the same code as ever. On a rigid clump it acts as on a sphere of its volume at its centre
+//! On a rigid clump it acts as on a sphere of its volume at its centre
 //! ([`crate::state::clumps`]). Left out: the shape of a clump, the mass of fluid that moves along, the torque of the fluid on a particle that
 //! spins, and what particles do to the fluid and through it to each other.
 //!
@@ -19,10 +9,10 @@
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
-use crate::passes::moved::{accelerate, has_left};
 use crate::state::State;
 use crate::threads::{FEW, share};
 use geom::Vec3;
+use laws::slowing::{Moved, has_left};
 
 /// Particles of one task.
 const CHUNK: usize = 256;
@@ -60,10 +50,9 @@ pub fn apply(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> bo
                     continue;
                 }
                 let (row, was) = (&mut rows[k], &before[k]);
-                let a = drag.acceleration(was, &gravity);
-                accelerate(row, &mut accelerations[k], &a, dt);
+                let acceleration = &mut accelerations[k];
+                taken += Moved { row: &mut *row, acceleration, was }.drag(&drag, &gravity, dt);
                 out |= has_left(row, &home[k], ahead);
-                taken -= drag.slowing(was).dot(&was.velocity()) * dt / was.inverse_mass();
             }
             (taken, out)
         });

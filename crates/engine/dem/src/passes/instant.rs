@@ -3,11 +3,11 @@
 use crate::model::Model;
 use crate::passes::drag::body_acceleration;
 use crate::passes::ledger::driven;
-use crate::passes::local_damping;
 use crate::state::{DrivenBody, State};
 use geom::Vec3;
 use laws::contact::WrenchSums;
 use laws::simd::Row4;
+use laws::slowing::local_damping;
 use laws::space::sphere::inverse_inertia;
 
 /// What a particle does at this instant.

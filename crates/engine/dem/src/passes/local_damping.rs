@@ -1,38 +1,21 @@
-//! Local damping: a force against the motion of each particle, in proportion to the force that is not in balance, for packings that are to come to rest.
+//! Local damping of particles, for packings that are to come to rest ([`laws::slowing::local_damping`] has the formulas).
 //!
-//! ```text
-//! F_d = −α |F| sign(v),  M_d = −α |M| sign(ω)       by component; F, M: all that acts on the particle (contacts, bonds, weight, fluid)
-//! v* ← v* + 3/2 a Δt,  x ← x + a Δt²,  a_n ← a_n + a          what an acceleration a adds to the move, as in [`crate::passes::drag`]
-//! ```
-//!
-//! Cundall (1987), in Analytical and Computational Methods in Engineering Rock Mechanics; v and ω are those predicted for the instant, v less that of the flow where the periodic cell is strained. A
+//! v and ω are those predicted for the instant, v less that of the flow where the periodic cell is strained. A
 //! particle in balance, or one that moves uniformly, is not damped; a falling one falls with (1 − α) g. So the damping is for specimens that are made, not
 //! for flows. A force that slows counts 1 + α times: the critical step is divided by that ([`crate::model::limit`]).
 
 use crate::model::Model;
 use crate::neighbours::NeighbourLists;
 use crate::passes::drag::body_acceleration;
-use crate::passes::moved::{accelerate, has_left};
 use crate::state::State;
 use crate::threads::{FEW, share};
-use geom::Vec3;
 use laws::contact::WrenchSums;
-use laws::simd::{Row, Row4};
-use laws::space::cell::Cell;
+use laws::slowing::local_damping::against;
+use laws::slowing::{Moved, Turned, has_left};
 use laws::space::sphere::inverse_inertia;
 
 /// Particles of one task.
 const CHUNK: usize = 256;
-
-/// The acceleration against a velocity, of all other accelerations together.
-pub fn against(factor: f64, all: &Vec3, velocity: &Vec3) -> Vec3 {
-    let one = |axis: usize| {
-        let v = velocity[axis];
-        let sign = if v == 0.0 { 0.0 } else { v.signum() };
-        -factor * all[axis].abs() * sign
-    };
-    Vec3::from([0, 1, 2].map(one))
-}
 
 /// What local damping takes from particle `k` at this instant [W].
 pub fn power(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> f64 {
@@ -51,34 +34,6 @@ pub fn power(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> f64 {
         taken -= against(factor, &(moment * inverse), &spin).dot(&spin) / inverse;
     }
     taken
-}
-
-/// One particle in the pass.
-struct Damped<'a> {
-    row: &'a mut Row,
-    acceleration: &'a mut Row4,
-    was: &'a Row,
-    /// Predicted spin, angular acceleration, and the spin before.
-    turning: Option<(&'a mut Row4, &'a mut Row4, &'a Row4)>,
-}
-
-impl Damped<'_> {
-    /// Adds the damping of a step; what it takes [J].
-    fn damp(self, factor: f64, cell: &Cell, dt: f64) -> f64 {
-        let against_flow = self.was.velocity() - cell.flow(&self.was.position());
-        let a = against(factor, &self.acceleration.vector(), &against_flow);
-        accelerate(self.row, self.acceleration, &a, dt);
-        let mut taken = -a.dot(&self.was.velocity()) * dt / self.was.inverse_mass();
-        if let Some((spin, turning, was)) = self.turning {
-            let a = against(factor, &turning.vector(), &was.vector());
-            for axis in 0..3 {
-                spin[axis] += 1.5 * dt * a[axis];
-                turning[axis] += a[axis];
-            }
-            taken -= a.dot(&was.vector()) * dt / inverse_inertia(self.was.radius(), self.was.inverse_mass());
-        }
-        taken
-    }
 }
 
 /// After a move and what the fluid adds to it, of spheres; clumps are damped when they move ([`crate::passes::clumps`]). Returns whether a particle has left its margin.
@@ -102,12 +57,13 @@ pub fn apply(model: &Model, state: &mut State, lists: &NeighbourLists) -> bool {
             let mine = |k: &usize| zones.is_free(tile * CHUNK + k) && !clumps.is_member(tile * CHUNK + k);
             for k in (0..rows.len()).filter(mine) {
                 let at = tile * CHUNK + k;
-                let turning = match (spins.get_mut(k), turns.get_mut(k), lists.spins_before.get(at)) {
-                    (Some(spin), Some(turn), Some(was)) => Some((spin, turn, was)),
+                let turned = match (spins.get_mut(k), turns.get_mut(k), lists.spins_before.get(at)) {
+                    (Some(spin), Some(acceleration), Some(was)) => Some(Turned { spin, acceleration, was }),
                     _ => None,
                 };
                 let (row, acceleration, was) = (&mut rows[k], &mut accelerations[k], &lists.before[at]);
-                taken += Damped { row, acceleration, was, turning }.damp(factor, &cell, dt);
+                let flow = cell.flow(&was.position());
+                taken += Moved { row, acceleration, was }.damp(factor, &flow, turned, dt);
                 out |= has_left(&rows[k], &home[k], ahead);
             }
             (taken, out)

@@ -13,7 +13,6 @@ pub mod integrate;
 pub mod ledger;
 pub mod local_damping;
 pub mod mount;
-pub mod moved;
 #[cfg(test)]
 mod operations;
 pub mod servo;

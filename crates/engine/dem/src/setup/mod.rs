@@ -6,9 +6,7 @@
 pub mod bond;
 pub mod clump_shape;
 pub mod clumps;
-pub mod drag;
-
-mod earlier_contacts;
+pub mod earlier_contacts;
 mod mount;
 mod servo;
 mod strain;
@@ -18,10 +16,10 @@ pub use crate::setup::bond::{
     Bond, BondKind, BondNumbers, BondSprings, BondStrength, Clusters, Spread, cluster_of,
 };
 pub use crate::setup::clump_shape::ClumpShape;
-pub use crate::setup::drag::{Drag, DragLaw};
 pub use earlier_contacts::{KeptContact, KeptPartner};
 pub use laws::effects::{ContactHistory, ContactLaw, Material};
 pub use laws::simd::number::Precision;
+pub use laws::slowing::fluid::{Drag, DragLaw};
 pub use mount::Mount;
 pub use servo::{Length, Servo, Target};
 pub use strain::Strain;

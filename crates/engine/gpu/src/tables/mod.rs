@@ -8,6 +8,7 @@ pub use columns::{Address, ContactTables, ParticleTables};
 use core::slice;
 use laws::contact::MoveInputs;
 use laws::simd::Layout;
+use laws::slowing::fluid::Drag;
 use lists::ListTables;
 
 /// A kind of contact, as a device knows it.
@@ -115,6 +116,12 @@ pub struct DeviceFlags {
 pub struct DeviceTables {
     /// Of the move.
     pub drive: MoveInputs,
+    /// A fluid, where there is one.
+    pub fluid: Drag,
+    /// 1 where there is.
+    pub has_fluid: u32,
+    /// α of local damping [–]; 0: none.
+    pub damping: f64,
     /// Largest overlap over the smaller radius [–].
     pub overlap_limit: f64,
     /// Number of particles.

@@ -61,8 +61,7 @@ pub fn drawn(seed: u64) -> Setup {
     let walls = 1 + random.below(3);
     let meshes = rough_floor(&mut random, walls);
     let planes = setup.walls.split_off(1);
-    setup.walls =
-        (0..).zip(meshes).map(|(k, m)| Wall::new(&format!("m{k}"), 0, WallShape::Mesh(m))).collect();
+    setup.walls = (0..).zip(meshes).map(|(k, m)| Wall::new(format!("m{k}"), 0, WallShape::Mesh(m))).collect();
     let (moves, each) = (random.below(4), random.below(2) == 0);
     for (k, wall) in setup.walls.iter_mut().enumerate() {
         // All in one motion, or each in its own.

@@ -1,13 +1,13 @@
 //! Clumps at one instant, for observers.
 
 use crate::model::Model;
-use crate::passes::local_damping::against;
 use crate::setup::Setup;
 use crate::space::rotation;
 use crate::state::clump::quaternion;
 use crate::state::{ClumpMotion, DrivenBody, RigidClumps, State};
 use geom::Vec3;
 use laws::contact::WrenchSums;
+use laws::slowing::local_damping::against;
 use laws::space::cell::Cell;
 use nalgebra::UnitQuaternion;
 
