@@ -6,7 +6,8 @@
 //! ```text
 //! tables        what lies in the memory of the device
 //! compositions  the compositions of effects, by number
-//! threads       a contact, a particle
+//! threads       a contact
+//! moves         a particle, in zones and free
 //! triangles     which points of triangles are contacts of a particle
 //! lists         neighbour lists: cells, pairs, slots
 //! ```
@@ -20,6 +21,7 @@ extern crate std;
 
 pub mod compositions;
 pub mod lists;
+pub mod moves;
 pub mod tables;
 pub mod threads;
 pub mod triangles;

@@ -1,4 +1,4 @@
-//! What one thread of a device does: a contact, or a particle.
+//! What one thread of a device does: a contact, or a particle ([`crate::moves`]).
 //!
 //! ```text
 //! contact   reads both ends, computes the wrench, keeps it in its slot
@@ -13,15 +13,11 @@ use crate::tables::{DeviceBlock, DeviceKind, DeviceTables, IMAGES, MESH, MOVED_S
 use core::slice;
 use laws::contact::contact_loop::{act, gather};
 use laws::contact::patch::{ALONE, Bodies, PATCH, Patch};
-use laws::contact::sums::{Sum, WrenchSums, add, add_opposite};
 use laws::contact::touch::{PatchLaw, Touch};
 use laws::contact::wall_point::WallPose;
-use laws::contact::{
-    Batch, MoveInputs, Mover, SlotEnd, StepInputs, Sums, WrenchBuffer, WrenchSlices, WrenchSlicesMut,
-};
+use laws::contact::{Batch, MoveInputs, StepInputs, Sums, WrenchBuffer, WrenchSlicesMut};
 use laws::effects::Effect;
-use laws::simd::{BLOCK, Each, FORCE_AND_MOMENT, Row, Row4, TORQUE};
-use laws::slowing::{Moved, Turned, has_left};
+use laws::simd::{BLOCK, FORCE_AND_MOMENT, Row, Row4, TORQUE};
 use primitives::Vec3;
 
 /// Numbers of history that a composition keeps at most.
@@ -243,93 +239,4 @@ unsafe fn partner(
         }
         Some((row, if t.rotates != 0 { *t.particles.spins.at(other as usize) } else { Row4::default() }))
     }
-}
-
-/// Sums the wrenches on a particle, and moves it; a fluid and local damping slow it where `SLOWED`. In step `step` of a launch.
-///
-/// # Safety
-/// Tables are in place and hold what they say; no other thread has this particle, and none computes contacts meanwhile.
-#[inline(always)]
-pub unsafe fn particle<const ROTATES: bool, const SLOWED: bool>(t: &DeviceTables, step: u32, k: usize) {
-    // SAFETY: by contract; this thread alone writes to the rows of its particle.
-    unsafe {
-        if k >= t.particle_count as usize || t.is_over(step) {
-            return;
-        }
-        let (from, to): (u32, u32) = (*t.contacts.starts.at(k), *t.contacts.starts.at(k + 1));
-        let (mut forces, mut torques) = ([0.0; FORCE_AND_MOMENT], [0.0; TORQUE]);
-        // Those of its own tile first, then those that arrive from elsewhere, as in `Sums`.
-        let own: u32 = *t.tiles.at(k / t.tile as usize);
-        let mut arrivals = 0;
-        while from + arrivals < to
-            && (*t.contacts.entries.at::<SlotEnd>((from + arrivals) as usize)).slot() < own as usize
-        {
-            arrivals += 1;
-        }
-        for entry in (from + arrivals..to).chain(from..from + arrivals) {
-            let end: SlotEnd = *t.contacts.entries.at(entry as usize);
-            let slot = end.slot();
-            if slot >= t.slot_count as usize {
-                return t.beyond(step);
-            }
-            if *t.acts.at::<u8>(slot) == 0 {
-                continue;
-            }
-            // Copied whole: a device reads rows in wide words.
-            if ROTATES {
-                let row: Row = *t.forces.at(slot);
-                accumulate(&mut forces, &row, end);
-            } else {
-                let row: Row4 = *t.forces.at(slot);
-                accumulate(&mut forces, &row, end);
-            }
-            if t.torques != 0 {
-                let row: Row4 = *t.moments.at(slot);
-                accumulate(&mut torques, &row, end);
-            }
-        }
-        let row: &mut Row = &mut *t.particles.rows.at(k);
-        let sums = WrenchSlices { forces: &forces, torques: if t.torques != 0 { &torques } else { &[] } };
-        let sums = WrenchSums { first: 0, layout: t.layout(), sums };
-        let sum: Sum<Each> = sums.sum::<f64, Each, ROTATES>(0, row.radius());
-        let mover = Mover::<Each>::new(&t.drive);
-        let (acceleration, home): (&mut Row4, &Row4) =
-            (&mut *t.particles.acceleration.at(k), &*t.particles.home.at(k));
-        let was = *row;
-        let mut found = mover.advance(row, acceleration, home, &sum);
-        let mut turned = None;
-        if ROTATES {
-            let (spin, acceleration): (&mut Row4, &mut Row4) =
-                (&mut *t.particles.spins.at(k), &mut *t.particles.angular_acceleration.at(k));
-            let was = *spin;
-            mover.turn(row, spin, acceleration, &sum);
-            turned = Some((spin, acceleration, was));
-        }
-        if SLOWED {
-            let MoveInputs { dt, ahead, gravity, .. } = t.drive;
-            let mut moved = Moved { row, acceleration, was: &was };
-            if t.has_fluid != 0 {
-                moved.drag(&t.fluid, &gravity.into(), dt);
-                found.left_margin |= has_left(moved.row, home, ahead);
-            }
-            if t.damping > 0.0 {
-                let turned =
-                    turned.as_mut().map(|(spin, acceleration, was)| Turned { spin, acceleration, was });
-                moved.damp(t.damping, &Vec3::zeros(), turned, dt);
-                found.left_margin |= has_left(moved.row, home, ahead);
-            }
-        }
-        for (place, found) in [(1, found.left_margin), (2, found.too_fast)] {
-            if found {
-                t.flag(place, 1);
-                t.flag(0, step + 1);
-            }
-        }
-    }
-}
-
-/// Adds a row of `N` numbers, as the first or the second particle of its contact takes it.
-#[inline(always)]
-fn accumulate<const N: usize>(sum: &mut [f64], row: &[f64; N], end: SlotEnd) {
-    if end.is_second() { add_opposite::<f64, N>(sum, 0, row) } else { add::<f64, N>(sum, 0, row) }
 }

@@ -119,7 +119,13 @@ impl<W: Write> Run<W> {
                 || schedule.is_checkpoint(*k)
                 || settling && k.is_multiple_of(settling::EVERY)
         };
-        (step + 1..most).find(due).unwrap_or(most)
+        let due = (step + 1..most).find(due).unwrap_or(most);
+        if !self.sim.looks_back(due) {
+            return due;
+        }
+        // Right after a step that is followed by a search, and before the next one.
+        let search = step.next_multiple_of(LOOK_BACK).max(step + 1);
+        due.min(search)
     }
 
     /// Lets in everything that the next step must know.

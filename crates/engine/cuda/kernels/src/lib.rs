@@ -6,7 +6,8 @@
 use core::arch::nvptx::{_block_dim_x, _block_idx_x, _thread_idx_x};
 use gpu::tables::DeviceTables;
 use gpu::lists;
-use gpu::threads::{contact, particle};
+use gpu::moves::{carried, particle, started};
+use gpu::threads::contact;
 
 #[inline(always)]
 fn thread() -> usize {
@@ -73,6 +74,26 @@ moves! {
     spheres: true, false;
     slowed_centres: false, true;
     slowed_spheres: true, true;
+}
+
+/// Begins to move what has left a zone.
+///
+/// # Safety
+/// As [`started`] says.
+#[unsafe(export_name = "started")]
+pub unsafe extern "ptx-kernel" fn started_entry(tables: DeviceTables, step: u32) {
+    // SAFETY: by contract.
+    unsafe { started(&tables, step, thread()) }
+}
+
+/// Moves what is in a zone.
+///
+/// # Safety
+/// As [`carried`] says.
+#[unsafe(export_name = "carried")]
+pub unsafe extern "ptx-kernel" fn carried_entry(tables: DeviceTables, step: u32) {
+    // SAFETY: by contract.
+    unsafe { carried(&tables, step, thread()) }
 }
 
 macro_rules! list_entries {

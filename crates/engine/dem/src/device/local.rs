@@ -1,11 +1,12 @@
 //! A device that is this processor: one thread after the other, in an order that is not theirs. Tests compare its bits.
 #![expect(unsafe_code, reason = "it calls what a device runs, with tables that lie in its own memory")]
 
-use crate::device::{Device, DeviceError, LISTS, MADE, MOVES, TRIANGLES};
+use crate::device::{CARRIED, Device, DeviceError, LISTS, MADE, MOVES, STARTED, TRIANGLES};
 use gpu::compositions::NAMES;
 use gpu::lists;
+use gpu::moves::{carried, particle, started};
 use gpu::tables::{Address, DeviceTables};
-use gpu::threads::{made, particle};
+use gpu::threads::made;
 use gpu::triangles::triangles;
 use std::collections::BTreeMap;
 
@@ -54,6 +55,8 @@ macro_rules! functions {
                     Some(contacts) => contacts(tables, function as u32, step, thread),
                     _ if function == TRIANGLES => triangles(tables, step, thread),
                     _ if function == MADE => made(tables, step, thread),
+                    _ if function == STARTED => started(tables, step, thread),
+                    _ if function == CARRIED => carried(tables, step, thread),
                     _ if function == MOVES => particle::<false, false>(tables, step, thread),
                     _ if function == MOVES + 1 => particle::<true, false>(tables, step, thread),
                     _ if function == MOVES + 2 => particle::<false, true>(tables, step, thread),

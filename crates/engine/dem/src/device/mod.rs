@@ -8,6 +8,7 @@
 //! are those that a processor makes, slot by slot. What it cannot compute is refused
 //! before anything starts ([`refused`]). Observing, and the step after it, are done here.
 
+mod carried;
 mod contacts;
 mod kinds;
 mod lister;
@@ -21,25 +22,31 @@ mod tables;
 mod tests;
 mod work;
 
+pub(crate) use carried::{Course, next_entry};
 pub use local::Local;
 pub use stepper::DeviceTimes;
-pub(crate) use stepper::Stepper;
+pub(crate) use stepper::{Found, LAUNCHED, Stepper};
 
 use gpu::compositions::NAMES;
 use gpu::lists::LIST_FUNCTIONS;
 use gpu::tables::{Address, DeviceTables};
 
-/// Functions of a step besides contacts, after the compositions: which points of triangles are contacts; which contacts have been made; the moves without
-/// and with rotation, and these where something slows particles besides contacts.
-const STEPS: [&str; 6] = ["triangles", "made", "centres", "spheres", "slowed_centres", "slowed_spheres"];
+/// Functions of a step besides contacts, after the compositions: which points of triangles are contacts; which contacts have been made; what begins to move; the moves without
+/// and with rotation, and these where something slows particles besides contacts; what is in zones.
+const STEPS: [&str; 8] =
+    ["triangles", "made", "started", "centres", "spheres", "slowed_centres", "slowed_spheres", "carried"];
 /// Number of the first of them.
 const TRIANGLES: usize = NAMES.len();
 /// Number of the second.
 const MADE: usize = TRIANGLES + 1;
+/// Number of the third.
+const STARTED: usize = MADE + 1;
 /// Number of the move without rotation; the next is that with it.
-const MOVES: usize = MADE + 1;
+const MOVES: usize = STARTED + 1;
+/// Number of the last of them.
+const CARRIED: usize = MOVES + 4;
 /// Number of the first function that makes lists.
-const LISTS: usize = TRIANGLES + STEPS.len();
+const LISTS: usize = CARRIED + 1;
 
 /// Functions that a device must have, by number: the compositions, the others of a step, and what makes lists.
 pub fn functions() -> Vec<&'static str> {

@@ -2,6 +2,7 @@
 
 use crate::device::kinds::numbers_of;
 use crate::model::Model;
+use crate::setup::{Zone, ZoneMotion};
 use crate::state::State;
 use laws::effects::{ContactLaw, active};
 use laws::simd::Precision;
@@ -16,7 +17,12 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     };
     refuse(!state.bonds.none(), "bonds");
     refuse(!state.clumps.none() || !setup.clumps.entries.is_empty(), "rigid clumps");
-    refuse(!state.zones.none(), "grains that enter or leave while it runs");
+    refuse(!setup.outlets.is_empty(), "grains that leave while it runs");
+    let enters = !setup.inlets.is_empty();
+    let follows = |zone: &Zone| zone.motion == ZoneMotion::Recorded;
+    refuse(setup.inlets.iter().any(follows), "grains that come in along recorded paths");
+    let slowed = setup.drag.is_some() || setup.local_damping.is_some();
+    refuse(enters && slowed, "grains that come in where a fluid or local damping slows them");
     refuse(state.sleepers.is_some(), "sleep");
     refuse(state.strained.is_some(), "a strained domain");
     refuse(setup.ledger || setup.guards.energy.is_finite(), "the energy ledger");

@@ -1,24 +1,25 @@
 //! Steps on a device: what it is sent, how often it is asked, and what is fetched.
 
+use crate::device::carried::{Carried, Course};
+mod fetch;
+
 use crate::device::lister::{Lister, Why};
 use crate::device::refused::refused;
-use crate::device::tables::{Plain, Table};
+use crate::device::stepper::fetch::Fetched;
+use crate::device::tables::Table;
 use crate::device::work::Work;
-use crate::device::{Device, DeviceError, MADE, MOVES, TRIANGLES};
+use crate::device::{CARRIED, Device, DeviceError, MADE, MOVES, STARTED, TRIANGLES};
 use crate::model::Model;
+use crate::neighbours::NeighbourLists;
 use crate::neighbours::poses::periods_travelled;
-use crate::neighbours::rebuild::{adapt_skin, take_lists};
-use crate::neighbours::{NeighbourLists, Slots};
-use crate::state::{Forces, ListStatus, State};
-use crate::threads::change;
-use gpu::tables::{DeviceFlags, DeviceTables};
+use crate::neighbours::rebuild::adapt_skin;
+use crate::state::{ListStatus, State};
+use gpu::tables::{DeviceFlags, DeviceTables, HOLD};
 use laws::contact::wall_point::WallPose;
-use laws::simd::{Row, Row4};
-use std::mem::swap;
 use std::time::Instant;
 
 /// Steps that are launched before the device is asked what they found: an answer takes as long as some steps of a small scene.
-const LAUNCHED: u32 = 32;
+pub const LAUNCHED: u32 = 32;
 
 /// A device, with tables for one simulation.
 pub struct Stepper {
@@ -26,6 +27,7 @@ pub struct Stepper {
     tables: DeviceTables,
     lister: Lister,
     poses: Table,
+    carried: Carried,
     flags: Table,
     /// Number of the rebuild whose lists the device has.
     listed: Option<u64>,
@@ -53,18 +55,6 @@ pub struct DeviceTimes {
     pub fetching: f64,
 }
 
-/// What is fetched, until all of it is there; the memory is kept from one time to the next.
-#[derive(Default)]
-struct Fetched {
-    rows: Vec<Row>,
-    spins: Vec<Row4>,
-    acceleration: Vec<Row4>,
-    angular_acceleration: Vec<Row4>,
-    home: Vec<Row4>,
-    place: Vec<u32>,
-    history: Vec<f64>,
-}
-
 /// What some steps found.
 #[derive(Debug, Clone, Copy)]
 pub struct Found {
@@ -72,6 +62,8 @@ pub struct Found {
     pub steps: u64,
     /// Of the last of them.
     pub flags: DeviceFlags,
+    /// Whether the forces after them are known, too: in a step in which particles begin to move, an overlap is too deep.
+    pub held: bool,
 }
 
 impl Stepper {
@@ -86,6 +78,7 @@ impl Stepper {
             tables: DeviceTables::default(),
             lister: Lister::default(),
             poses: Table::default(),
+            carried: Carried::default(),
             flags: Table::default(),
             listed: None,
             held: None,
@@ -235,10 +228,12 @@ impl Stepper {
         Ok(())
     }
 
-    /// Makes so many steps with walls in their `poses` in each of them, or fewer where lists have to be rebuilt or a guard has to be asked. The state must have been sent; it has to be fetched.
+    /// Makes so many steps with walls in their `poses` in each of them, or fewer where lists have to be rebuilt or a guard has to be asked. The state must have been sent; it has to be fetched. `course`: of
+    /// particles on their way in, for that many steps.
     pub fn run(
         &mut self,
         most: u64,
+        course: Option<&Course>,
         poses: impl Fn(u64) -> Vec<WallPose>,
         mut goes_on: impl FnMut(u64) -> bool,
     ) -> Result<Found, DeviceError> {
@@ -250,6 +245,12 @@ impl Stepper {
         let (mut done, start, meshes) = (0, Instant::now(), self.lister.fixed.meshes.any);
         // From here on the device is ahead.
         self.held = None;
+        if let Some(course) = course {
+            course
+                .send(&mut Work { device: self.device.as_mut(), t: &mut self.tables }, &mut self.carried)?;
+        }
+        let (starts, carried) =
+            (|step| course.is_some_and(|c| c.starts_in(step)), course.map_or(0, Course::len));
         loop {
             let Stepper { device, tables: t, .. } = self;
             let device = device.as_mut();
@@ -264,61 +265,27 @@ impl Stepper {
                 for &function in &functions {
                     device.launch(function, t.slot_count as usize, t, step)?;
                 }
-                device.launch(moves, t.particle_count as usize, t, step)?;
+                let holds = starts(step);
+                let given = if holds { step | HOLD } else { step };
+                if holds {
+                    device.launch(STARTED, carried, t, given)?;
+                }
+                device.launch(moves, t.particle_count as usize, t, given)?;
+                device.launch(CARRIED, carried, t, given)?;
             }
             let flags = self.flags_are_sound()?;
             done += u64::from(if flags.stopped > 0 { flags.stopped } else { steps });
+            if flags.deep != 0 && flags.stopped > 0 && starts(flags.stopped - 1) {
+                self.times.stepping += start.elapsed().as_secs_f64();
+                return Ok(Found { steps: done - 1, flags, held: true });
+            }
             // Asked in any case: lists that hold for a few steps end the loop before it would be.
             let wanted = goes_on(done);
             if flags.stopped > 0 || done >= most || !wanted {
                 self.times.stepping += start.elapsed().as_secs_f64();
-                return Ok(Found { steps: done, flags });
+                return Ok(Found { steps: done, flags, held: false });
             }
         }
-    }
-
-    /// Brings the state back, which is that of the device but for its columns, and lists.
-    pub fn fetch(
-        &mut self,
-        model: &Model,
-        state: &mut State,
-        lists: &mut NeighbourLists,
-    ) -> Result<(), DeviceError> {
-        let start = Instant::now();
-        let Stepper { device, lister, fetched: f, .. } = self;
-        let (from, device, count) = (&lister.sorter.particles, device.as_mut(), state.particles.len());
-        let turning = if model.rotates { count } else { 0 };
-        // All of them or none: a device may fail in between.
-        read(device, &from.rows, &mut f.rows, state.particles.rows.len())?;
-        read(device, &from.spins, &mut f.spins, state.particles.spins.len())?;
-        read(device, &from.acceleration, &mut f.acceleration, count)?;
-        read(device, &from.angular_acceleration, &mut f.angular_acceleration, turning)?;
-        read(device, &lister.contacts.columns.history, &mut f.history, lister.contacts.slots.history)?;
-        let (moved, mut slots) = (self.moved, Slots::default());
-        if moved {
-            read(device, &from.home, &mut f.home, count)?;
-            read(device, &from.place, &mut f.place, count)?;
-            slots = lister.contacts.fetch(device, &model.cell().half_of_images())?;
-            self.number_places()?;
-        }
-        let (p, f) = (&mut state.particles, &mut self.fetched);
-        swap(&mut p.rows, &mut f.rows);
-        swap(&mut p.spins, &mut f.spins);
-        swap(&mut p.acceleration, &mut f.acceleration);
-        swap(&mut p.angular_acceleration, &mut f.angular_acceleration);
-        if moved {
-            p.take_names(&f.place);
-            swap(&mut p.home, &mut f.home);
-            take_lists(model, state, lists, slots);
-        }
-        let history = &self.fetched.history;
-        change(&mut state.contacts.history, |k, number| *number = history[k]);
-        // The device does not say which blocks act.
-        lists.step.active.fill(true);
-        state.forces = Forces::Due;
-        self.held = Some(state.steps);
-        self.times.fetching += start.elapsed().as_secs_f64();
-        Ok(())
     }
 }
 
@@ -329,15 +296,4 @@ impl Stepper {
         let Stepper { device, lister, .. } = self;
         lister.contacts.of_particles(device.as_mut()).expect("a device that works")
     }
-}
-
-/// Reads so many rows of a table.
-fn read<T: Plain + Default>(
-    device: &mut dyn Device,
-    table: &Table,
-    to: &mut Vec<T>,
-    rows: usize,
-) -> Result<(), DeviceError> {
-    to.resize(rows, T::default());
-    table.read(device, to)
 }

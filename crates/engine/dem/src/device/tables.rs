@@ -5,7 +5,7 @@ use crate::device::{Device, DeviceError};
 use geom::motion::Pose;
 use geom::{Lattice, Vec3};
 use gpu::tables::lists::{DeviceSegment, DeviceWall, LeastRow};
-use gpu::tables::{Address, DeviceBlock, DeviceFlags, DeviceKind, DeviceMesh};
+use gpu::tables::{Address, DeviceBlock, DeviceFlags, DeviceKind, DeviceMesh, DeviceZoneRow};
 use laws::contact::SlotEnd;
 use laws::contact::wall_point::WallPose;
 use laws::simd::{Row, Row4};
@@ -71,6 +71,9 @@ fields! {
     DeviceMesh {
         corners: Address, doubled: Address, nodes: Address, order: Address, boxes: Address, surface: Address,
         node_count: u32, parts: u32, surface_count: u32, pad: u32, fastest: f64, reach: f64,
+    }
+    DeviceZoneRow {
+        position: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3], spin: [f64; 3], acts: u64,
     }
     DeviceFlags { stopped: u32, left_margin: u32, too_fast: u32, deep: u32, beyond: u32 }
     WallPose { pose: Pose, belt: Pose, has_belt: u64 }

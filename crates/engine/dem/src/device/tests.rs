@@ -1,6 +1,7 @@
 //! A device gives the bits of a processor, and refuses what it does not compute.
 
 mod damaged;
+mod entering;
 mod every_law;
 mod meshes;
 

@@ -7,7 +7,7 @@ use crate::state::{DrivenBody, State};
 use geom::Vec3;
 use laws::contact::WrenchSums;
 use laws::simd::Row4;
-use laws::slowing::local_damping;
+use laws::slowing::slowed_at;
 use laws::space::sphere::inverse_inertia;
 
 /// What a particle does at this instant.
@@ -32,7 +32,7 @@ pub fn instant(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> Ins
         angular_acceleration: Vec3::zeros(),
     };
     let against = |all: Vec3, velocity: Vec3| match model.setup.local_damping {
-        Some(factor) if free => all + local_damping::against(factor, &all, &velocity),
+        Some(factor) if free => slowed_at(factor, all, &velocity),
         _ => all,
     };
     let inverse = inverse_inertia(row.radius(), row.inverse_mass());

@@ -1,17 +1,17 @@
 //! Many steps at once, where a device makes them.
 
 use super::Simulation;
-use crate::device::{Device, DeviceError, DeviceTimes, Stepper};
+use crate::device::{Course, Device, DeviceError, DeviceTimes, Found, LAUNCHED, Stepper, next_entry};
 use crate::forces::sweep;
 use crate::model::{Halt, Model};
 use crate::neighbours::poses::pose_in_box;
 use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
+use crate::passes::instant;
 use crate::passes::touching::position_before;
 use crate::simulation::step::{check_overlap, refresh_lists};
-use crate::state::{Forces, ListStatus, State};
+use crate::state::{Forces, LOOK_AHEAD, ListStatus, State};
 use geom::Vec3;
-use gpu::tables::DeviceFlags;
 
 impl Simulation {
     /// Has the steps made by a device from now on, with the same bits.
@@ -50,17 +50,28 @@ impl Simulation {
         last: u64,
         goes_on: &mut dyn FnMut(u64) -> bool,
     ) -> Result<(), Halt> {
+        // Who has particles come in does not know more of them ahead.
+        let enters = !self.state.zones.none();
+        let last = if enters { last.min(self.state.steps + LOOK_AHEAD) } else { last };
         loop {
             refresh_lists(&self.model, &mut self.state, &mut self.lists)?;
-            if self.state.forces == Forces::Known || !self.state.starting.is_empty() {
+            if self.is_due_here() {
                 self.step()?;
             } else {
                 return self.steps_on(stepper, last.max(self.state.steps + 1), goes_on);
             }
-            if self.state.steps >= last || !goes_on(self.state.steps) {
+            if enters || self.state.steps >= last || !goes_on(self.state.steps) {
                 return Ok(());
             }
         }
+    }
+
+    /// Whether the next step is made here: something has been observed, all begin to move, or contacts take histories that were recorded.
+    fn is_due_here(&self) -> bool {
+        let Simulation { model, state, .. } = self;
+        let all_start = !state.starting.is_empty() && state.starting.len() == state.particles.len();
+        let starts = if state.zones.none() { !state.starting.is_empty() } else { all_start };
+        state.forces == Forces::Known || starts || Course::is_here(model, state)
     }
 
     /// Steps on the device, which makes its own lists, until something is due here.
@@ -73,16 +84,29 @@ impl Simulation {
         let Simulation { model, state, lists, .. } = self;
         let failed = |time: f64, error: DeviceError| Halt::Device { time, what: error.to_string() };
         let (begun, listing, wall_periods) = (state.steps, state.listing, lists.wall_periods.clone());
+        let zones = (!state.zones.none()).then(|| (state.zones.clone(), state.starting.clone()));
         let outcome = stepper
             .send(model, state, lists)
             .and_then(|()| run(stepper, model, state, lists, last, goes_on))
-            .and_then(|flags| stepper.fetch(model, state, lists).map(|()| flags));
-        let flags = outcome.map_err(|error| {
+            .and_then(|found| stepper.fetch(model, state, lists).map(|()| found));
+        let Found { flags, held, .. } = outcome.map_err(|error| {
             // The columns are still those of then.
             stepper.forget();
             (state.steps, state.listing, lists.wall_periods) = (begun, listing, wall_periods);
+            if let Some((zones, starting)) = zones {
+                (state.zones, state.starting) = (zones, starting);
+            }
             failed(state.time(), error)
         })?;
+        if held {
+            stepper.fetch_wrenches(state, lists).map_err(|error| failed(state.time(), error))?;
+            sweep::find_contact_points(model, state, lists);
+            sweep::sum_kept(model, state, lists);
+            state.forces = Forces::Known;
+            instant::start(model, state);
+            let all = 0..lists.slots.segments.len();
+            return check_overlap(model, state, lists, &[all], false);
+        }
         if flags.deep != 0 {
             find_points_before(model, state, lists);
             let all = 0..lists.slots.segments.len();
@@ -103,26 +127,33 @@ fn run(
     lists: &mut NeighbourLists,
     last: u64,
     goes_on: &mut dyn FnMut(u64) -> bool,
-) -> Result<DeviceFlags, DeviceError> {
+) -> Result<Found, DeviceError> {
+    let last = next_entry(state).map_or(last, |entry| last.min(entry));
     loop {
-        let (before, most) = (state.steps, rebuild::steps_of_walls(model, state, last - state.steps));
+        let before = state.steps;
+        let most = rebuild::steps_of_walls(model, state, last - before);
+        let course = (!state.zones.none()).then(|| Course::plan(model, state, most.min(u64::from(LAUNCHED))));
+        let most = course.as_ref().map_or(most, |course| course.steps);
         let poses = |step: u64| {
             let time = (before + step) as f64 * state.dt;
             let pose = |w: usize| model.walls[w].pose(&pose_in_box(model, state, lists, w, time));
             (0..model.walls.len()).map(pose).collect()
         };
         let mut wanted = true;
-        let found = stepper.run(most, poses, |done| {
+        let found = stepper.run(most, course.as_ref(), poses, |done| {
             wanted = goes_on(before + done);
             wanted
         })?;
         state.steps += found.steps;
+        if let Some(course) = &course {
+            course.done(state, found.steps);
+        }
         if found.flags.left_margin != 0 {
             state.listing.outdate(ListStatus::MarginLeft);
         }
         let guarded = found.flags.deep != 0 || found.flags.too_fast != 0;
-        if guarded || state.steps >= last || !wanted {
-            return Ok(found.flags);
+        if guarded || state.steps >= last || !wanted || Course::is_here(model, state) {
+            return Ok(found);
         }
         if rebuild::is_due(model, state) {
             stepper.relist(model, state, lists)?;

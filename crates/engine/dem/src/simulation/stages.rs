@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::model::{Halt, SetupError};
 use crate::passes::zones::{enter, paths, returned};
 use crate::setup::{Crossing, CrossingBond, Entry, Guide, PairHistory, PathSample};
-use crate::state::{ListStatus, Returned};
+use crate::state::{ListStatus, Returned, State};
 
 impl Simulation {
     /// Queues a particle that will enter; due when time() reaches `entry.time`.
@@ -64,6 +64,12 @@ impl Simulation {
     /// Such a particle, unless the guards have it removed.
     pub fn look_back(&mut self) -> Result<(), Halt> {
         returned::look_back(&self.model, &mut self.state, &self.lists)
+    }
+
+    /// Whether [`Simulation::look_back`] may find something before step `until`: where it cannot, nothing is lost if it is not called.
+    pub fn looks_back(&self, until: u64) -> bool {
+        let State { zones, dt, .. } = &self.state;
+        zones.is_watched() || !zones.stay_slow([self.time(), until as f64 * dt], *dt, &self.model.setup)
     }
 
     /// How many particles went back through planes so far.

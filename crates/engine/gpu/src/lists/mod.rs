@@ -34,7 +34,7 @@ macro_rules! lists {
         $then! {
             margins boxes fold count_reach near_reach keys digits spread permute cell_starts spots
             scan_sums scan_down common_pairs wide_pairs image_pairs wall_parts class_starts
-            clear_slots blocks sort_class contacts_of sort_contacts_of triangles_of carry points
+            clear_slots blocks sort_class contacts_of sort_contacts_of triangles_of rows_now carry points
         }
     };
 }

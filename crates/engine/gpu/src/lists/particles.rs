@@ -258,3 +258,22 @@ pub unsafe fn spots(t: &DeviceTables, _: u32, k: usize) {
         *t.lists.spots.at(k) = Row4([p.x, p.y, p.z, reach]);
     }
 }
+
+/// Notes where a particle is now, by where it was when all were sent.
+///
+/// # Safety
+/// Tables are in place.
+#[inline(always)]
+pub unsafe fn rows_now(t: &DeviceTables, _: u32, k: usize) {
+    if k >= t.particle_count as usize {
+        return;
+    }
+    // SAFETY: by contract; no two particles were at one place.
+    unsafe {
+        let place: u32 = *t.particles.place.at(k);
+        if place >= t.particle_count {
+            return t.beyond(0);
+        }
+        *t.zones.rows_now.at(place as usize) = k as u32;
+    }
+}

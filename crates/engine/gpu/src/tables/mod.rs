@@ -82,6 +82,43 @@ pub struct DeviceMesh {
     pub reach: f64,
 }
 
+/// Added to the number of a step: its move waits where an overlap is too deep, as that of a step in which particles begin to move does.
+pub const HOLD: u32 = 1 << 31;
+
+/// Where a particle in a zone is after a step.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct DeviceZoneRow {
+    /// [m].
+    pub position: [f64; 3],
+    /// [m/s].
+    pub velocity: [f64; 3],
+    /// [m/s²].
+    pub acceleration: [f64; 3],
+    /// [rad/s].
+    pub spin: [f64; 3],
+    /// 1 where it is still in the zone.
+    pub acts: u64,
+}
+
+/// Particles in zones, and those that begin to move.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct ZoneTables {
+    /// How many.
+    pub count: u32,
+    /// Nothing.
+    pub pad: u32,
+    /// Where each was among all when all were sent, four bytes.
+    pub at: Address,
+    /// Step of the launch in which each begins to move, four bytes.
+    pub starts: Address,
+    /// [`DeviceZoneRow`] of each, in each step of the launch.
+    pub rows: Address,
+    /// Where each particle is now, by where it was when all were sent, four bytes.
+    pub rows_now: Address,
+}
+
 /// A block of slots.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
@@ -175,6 +212,8 @@ pub struct DeviceTables {
     pub walls: u32,
     /// First slot of each tile.
     pub tiles: Address,
+    /// Particles in zones.
+    pub zones: ZoneTables,
     /// [`DeviceFlags`].
     pub flags: Address,
     /// What lists are made with.
@@ -201,6 +240,19 @@ impl DeviceTables {
         // SAFETY: by contract. Threads of this step may write 1 + step meanwhile, which is no earlier one.
         let stopped = unsafe { self.flags.at::<u32>(0).read_volatile() };
         stopped != 0 && stopped <= step
+    }
+
+    /// Whether an overlap is too deep in this step.
+    ///
+    /// # Safety
+    /// Tables are in place, and no thread computes contacts meanwhile.
+    #[inline(always)]
+    pub unsafe fn is_too_deep(&self, step: u32) -> bool {
+        // SAFETY: by contract.
+        unsafe {
+            let flags = self.flags;
+            flags.at::<u32>(3).read_volatile() != 0 && flags.at::<u32>(0).read_volatile() == step + 1
+        }
     }
 
     /// Notes that a number of a table lies beyond another table, and ends the launch; in step `step` of it.

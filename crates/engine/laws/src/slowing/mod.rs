@@ -34,6 +34,12 @@ pub fn has_left(row: &Row, home: &Row4, ahead: f64) -> bool {
     (row.position() - home.vector()).norm_squared() > margin * margin
 }
 
+/// What local damping leaves of an acceleration [m/s² or rad/s²], of a particle that moves like this apart from the flow.
+#[inline(always)]
+pub fn slowed_at(factor: f64, all: Vec3, velocity: &Vec3) -> Vec3 {
+    all + against(factor, &all, velocity)
+}
+
 /// A particle that has moved.
 pub struct Moved<'a> {
     /// Its row.

@@ -1,8 +1,8 @@
 //! Particles that come in too fast, and those that go back.
 
 use crate::model::{Entrance, Halt};
-use crate::setup::Setup;
-use crate::state::{Direction, Zones};
+use crate::setup::{Particle, Setup};
+use crate::state::{Direction, Kinematics, Zones};
 use geom::Vec3;
 
 impl Zones {
@@ -19,6 +19,34 @@ impl Zones {
             }
         }
         Ok(())
+    }
+
+    /// Whether any inlet is watched for particles that go back.
+    pub(crate) fn is_watched(&self) -> bool {
+        !self.lost.returned.inlets.is_empty()
+    }
+
+    /// Whether no particle on its way in, or that comes in between two times [s], moves by more than the guard's share of its radius in a step, up to then. Where motions are in
+    /// closed form their speeds are largest at an end.
+    pub(crate) fn stay_slow(&self, [from, to]: [f64; 2], dt: f64, setup: &Setup) -> bool {
+        // A little less, so that no rounding hides what the guard finds.
+        let limit = setup.guards.motion * (1.0 - 1e-9);
+        let slow = |start: &Particle, since: f64, acceleration: Vec3| {
+            [from.max(since), to.max(since)].into_iter().all(|time| {
+                let speed = Kinematics::after(time - since, start, acceleration).velocity.norm();
+                speed * dt / start.radius <= limit
+            })
+        };
+        let coming = self.pending.iter().take_while(|entry| entry.time <= to);
+        let on_their_way = self.zone_particles.iter().filter(|t| matches!(t.direction, Direction::In(_)));
+        self.paths.is_empty()
+            && on_their_way
+                .into_iter()
+                .all(|t| slow(&t.start, t.since, t.zone(self).acceleration(&setup.gravity)))
+            && coming.into_iter().all(|entry| {
+                let zone = self.inlets[entry.inlet as usize];
+                slow(&entry.particle, entry.time, zone.acceleration(&setup.gravity))
+            })
     }
 
     /// How far a free particle is behind the calculation plane that it came by, less the length of the zone: above 0 it is behind
