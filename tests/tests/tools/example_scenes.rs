@@ -1,6 +1,6 @@
 //! The examples and the page for the first day: each scene runs for a short time and can be drawn, and the commands of the page run.
 
-use grainpipe_tests::tools::{line, program, succeed};
+use grainpipe_tests::tools::{line, program, succeed, tool};
 use grainpipe_tests::tree::root;
 use std::fs;
 use tempfile::{TempDir, tempdir};
@@ -27,6 +27,25 @@ fn every_example_runs_and_is_drawn_without_a_warning() {
         assert!(!done.stderr.contains("warning"), "{name}: {}", done.stderr);
         let done = succeed(folder.path(), "dem-view", &["run.mcap", "--size", "320x180", "-o", "run.png"]);
         assert!(!done.stderr.contains("warning"), "{name}: {}", done.stderr);
+    }
+}
+
+/// Triangles that rest, turn and shake, belts, grains that come in. The beam is bonded.
+#[test]
+fn a_device_writes_the_same_file_of_every_example() {
+    let folder = tempdir().unwrap();
+    for name in scenes() {
+        let scene = root().join("examples").join(format!("{name}.toml")).display().to_string();
+        let words = |out| [&scene, "--until", "0.012", "-o", out, "--device", "local"];
+        if name == "beam" {
+            let done = tool(folder.path(), "dem-run", &words("there.mcap"));
+            assert!(done.stderr.contains("--device: it does not compute bonds ("), "{}", done.stderr);
+            continue;
+        }
+        succeed(folder.path(), "dem-run", &words("there.mcap"));
+        succeed(folder.path(), "dem-run", &words("here.mcap")[..5]);
+        let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+        assert!(read("here.mcap") == read("there.mcap"), "{name}");
     }
 }
 

@@ -85,6 +85,14 @@ pub fn run<W: Write>(
         if let Err(halt) = run.step(step, stop, report) {
             break Some(run.halted(scene, halt)?);
         }
+        // Many steps at once: what the last of them would have let in is in the checkpoint, too.
+        let before = run.sim.steps().saturating_sub(1);
+        if before > step {
+            match run.let_in_by(before as f64 * run.sim.dt()) {
+                Err(_) if stop() => break Some(Stopping::signal()),
+                other => other?,
+            }
+        }
     };
     run.finish(reason)
 }
@@ -130,8 +138,13 @@ impl<W: Write> Run<W> {
 
     /// Lets in everything that the next step must know.
     pub(crate) fn let_in(&mut self) -> Result<()> {
+        self.let_in_by(self.sim.time())
+    }
+
+    /// Lets in everything that a step at `time` [s] must know.
+    fn let_in_by(&mut self, time: f64) -> Result<()> {
         // Where particles follow recorded paths, the next sample of each must be known.
-        let horizon = self.sim.time() + self.sim.look_ahead() + self.supply.samples();
+        let horizon = time + self.sim.look_ahead() + self.supply.samples();
         while let Some(arrival) = self.supply.next_until(horizon)? {
             match arrival {
                 Arrival::Enter(entry) => self.sim.enter(entry)?,

@@ -63,6 +63,12 @@ impl Draw {
                 self.effect(&mut law, effect);
             }
         }
+        // The spring of friction is refused without it.
+        if !law.contains_key("sliding_friction") {
+            for key in ["tangential_ratio", "tangential_stiffness"] {
+                law.remove(key);
+            }
+        }
         law
     }
 

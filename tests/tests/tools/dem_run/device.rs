@@ -72,10 +72,11 @@ fn a_guard_says_the_same() {
 
 #[test]
 fn what_a_device_does_not_compute_is_named() {
-    let scene = BOX.replace("[[contact]]", "[local_damping]\n[[contact]]");
+    let scene = BOX.replace("[[contact]]", "[sleep]\nspeed = 1e-3\ntime = 0.1\n[[contact]]");
     let folder = with(&scene.replace("every = 0.02", "every = 0.02\nenergy = true"));
     let done = tool(folder.path(), "dem-run", &["s.toml", "--device", "local", "-o", "s.mcap"]);
-    let expected = "--device: it does not compute local damping, the energy ledger (docs/how-to/gpu.md says what it does)";
+    let expected =
+        "--device: it does not compute sleep, the energy ledger (docs/how-to/gpu.md says what it does)";
     assert!(done.code != 0 && done.stderr.contains(expected), "{}", done.stderr);
     assert!(!folder.path().join("s.mcap").exists());
 }
