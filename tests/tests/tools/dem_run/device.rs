@@ -3,6 +3,7 @@
 use super::{checkpoints, with};
 use grainpipe_tests::tools::{succeed, tool};
 use std::fs;
+use std::path::Path;
 
 /// Forty grains in a box whose floor shakes and one side of which runs like a belt.
 const BOX: &str = r#"gravity = [0, 0, -9.81]
@@ -79,6 +80,13 @@ fn what_a_device_does_not_compute_is_named() {
         "--device: it does not compute sleep, the energy ledger (docs/how-to/gpu.md says what it does)";
     assert!(done.code != 0 && done.stderr.contains(expected), "{}", done.stderr);
     assert!(!folder.path().join("s.mcap").exists());
+    let explained = |folder: &Path| {
+        String::from_utf8(succeed(folder, "dem-run", &["s.toml", "--explain"]).stdout).unwrap()
+    };
+    let refused = explained(folder.path());
+    assert!(refused.contains("\nGPU            does not compute sleep, the energy ledger\n"), "{refused}");
+    let computed = explained(with(BOX).path());
+    assert!(computed.contains("\nGPU            computes it: --device cuda\n"), "{computed}");
 }
 
 /// Where there is no GPU, and where there is none of this number.

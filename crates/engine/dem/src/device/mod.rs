@@ -24,6 +24,7 @@ mod work;
 
 pub(crate) use carried::{Course, next_entry};
 pub use local::Local;
+pub(crate) use refused::refused;
 pub use stepper::DeviceTimes;
 pub(crate) use stepper::{Found, LAUNCHED, Stepper};
 

@@ -1,7 +1,9 @@
 //! Many steps at once, where a device makes them.
 
 use super::Simulation;
-use crate::device::{Course, Device, DeviceError, DeviceTimes, Found, LAUNCHED, Stepper, next_entry};
+use crate::device::{
+    Course, Device, DeviceError, DeviceTimes, Found, LAUNCHED, Stepper, next_entry, refused,
+};
 use crate::forces::sweep;
 use crate::model::{Halt, Model};
 use crate::neighbours::poses::pose_in_box;
@@ -21,6 +23,11 @@ impl Simulation {
     pub fn use_device(&mut self, device: Box<dyn Device>) -> Result<(), Vec<String>> {
         self.device = Some(Stepper::new(device, &self.model, &self.state)?);
         Ok(())
+    }
+
+    /// What of the simulation a device does not compute, in words; none: it computes all of it.
+    pub fn not_on_a_device(&self) -> Vec<String> {
+        refused(&self.model, &self.state)
     }
 
     /// What makes the steps, where that is not this processor.

@@ -74,6 +74,8 @@ pub struct Fields {
     pub bonds: usize,
     /// Bytes of a bond, with those of its particles; when there are some.
     pub bytes_per_bond: Option<f64>,
+    /// What a GPU does not compute of it; empty: it computes all.
+    pub not_on_a_gpu: Vec<String>,
     /// Whether anything turns particles.
     pub rotation: bool,
     /// Time of a step, when it was measured.
@@ -165,6 +167,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
     let (bytes_per_particle, rotation) = (sim.bytes_per_particle(), sim.rotates());
     let (bonds, bytes_per_contact) = (sim.bond_count()[0], sim.bytes_of_contact());
     let bytes_per_bond = (bonds > 0).then(|| sim.bytes_of_bonds() as f64 / bonds as f64);
+    let not_on_a_gpu = sim.not_on_a_device();
     drop(sim);
     let coming = Coming::new(scene, &insertions, streams.len(), dt * last as f64);
     // The middle of the run at the latest: its end may be at rest.
@@ -189,6 +192,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
         bytes_per_contact,
         bonds,
         bytes_per_bond,
+        not_on_a_gpu,
         rotation,
         calibration,
         unmeasured: measured.and_then(Result::err),

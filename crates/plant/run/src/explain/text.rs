@@ -51,6 +51,7 @@ pub(super) fn text(fields: &Fields) -> String {
     if fields.calibration.is_some() || fields.unmeasured.is_some() {
         line(&mut out, "expected", expected(fields));
     }
+    line(&mut out, "GPU", gpu(&fields.not_on_a_gpu));
     let _ = writeln!(out, "\n{:22} {:>10} {:>8}  called for by", "effect", "B/contact", "share");
     for e in &fields.effects {
         let _ = writeln!(out, "{:22} {:>10} {:>8}  {}", e.name, e.bytes_per_contact, share(e), e.why);
@@ -58,6 +59,14 @@ pub(super) fn text(fields: &Fields) -> String {
     memory(&mut out, fields);
     fields.dropped.iter().for_each(|key| line(&mut out, "dropped", key));
     out
+}
+
+/// Whether a GPU computes it.
+fn gpu(refused: &[String]) -> String {
+    match refused {
+        [] => "computes it: --device cuda".to_owned(),
+        all => format!("does not compute {}", all.join(", ")),
+    }
 }
 
 /// Adds a line under a heading.
