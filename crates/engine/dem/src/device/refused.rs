@@ -23,6 +23,7 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     refuse(setup.drag.is_some(), "a fluid");
     refuse(setup.local_damping.is_some(), "local damping");
     refuse(setup.ledger || setup.guards.energy.is_finite(), "the energy ledger");
+    refuse(!state.wall_sums.none(), "forces on walls over all steps (output.wall_forces)");
     refuse(setup.precision != Precision::Double, "contacts in single precision");
     for (body, wall) in model.walls.iter().zip(&setup.walls) {
         refuse(body.answers(), &format!("wall '{}', which follows a force or stands on a spring", wall.name));

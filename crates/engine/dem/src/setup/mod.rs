@@ -96,6 +96,10 @@ pub struct Setup {
     /// Whether the wrench of each contact is kept when a run is observed: 64 bytes a contact that only
     /// [`crate::Simulation::record_contacts`] and [`crate::Simulation::wall_forces`] want.
     pub record_wrenches: bool,
+    /// Whether the sliding work of contacts that are no longer listed is held until [`crate::Simulation::record_contacts`] takes it; with the ledger.
+    pub record_sliding: bool,
+    /// What is added up of walls over every step, until [`crate::Simulation::take_wall_sums`] takes it.
+    pub wall_sums: WallDetail,
     /// When a run is stopped.
     pub guards: Guards,
 }
@@ -131,9 +135,23 @@ impl Default for Setup {
             sleep: None,
             ledger: false,
             record_wrenches: true,
+            record_sliding: false,
+            wall_sums: WallDetail::Off,
             guards: Guards::default(),
         }
     }
+}
+
+/// What is added up of walls over every step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum WallDetail {
+    /// Nothing, at no cost.
+    #[default]
+    Off,
+    /// Whole walls.
+    Whole,
+    /// Walls, and each wall sphere and triangle that is touched.
+    Parts,
 }
 
 /// How the time step is chosen.
