@@ -12,7 +12,7 @@ use stream::Table;
 /// The sums since the frame before.
 pub(crate) struct Interval<'a> {
     pub sums: &'a WallInterval,
-    /// Point of each wall that torques are told about, now [m].
+    /// Point of each wall about which its torque is, now [m].
     pub about: Vec<Vec3>,
     /// Whether the ledger knows the sliding work.
     pub slides: bool,

@@ -42,6 +42,7 @@ checkpoint = 0.001
 energy = true
 contacts = true
 wall_forces = true
+wear = true
 precision = "f64"
 [domain]
 periodic = ["x", "y"]

@@ -242,8 +242,11 @@ fn step_inputs<'a>(model: &Model, particles: &'a Particles, layout: Layout) -> S
 /// Whether the wrenches of all contacts are kept from now on; where walls have sums, at least those with walls are. As all, they begin at 0.
 fn keep_wrenches(model: &Model, state: &mut State, lists: &mut NeighbourLists, all: bool) {
     state.contacts.keep_wrenches(all, lists.slots.i.len());
+    if state.wall_sums.none() {
+        return;
+    }
     let walls = &mut lists.step.wall_wrenches;
-    if all || state.wall_sums.none() {
+    if all {
         *walls = WrenchColumns::default();
     } else if walls.forces.is_empty() {
         *walls = WrenchColumns::zeros(model.layout(), lists.slots.rows(), state.torques(model));

@@ -34,34 +34,54 @@ pub fn add(model: &Model, state: &mut State, lists: &NeighbourLists) {
     for segment in &lists.slots.segments {
         let With::Wall(wall) = segment.with else { continue };
         let mut onset = Onset::default();
-        for slot in reader.busy(segment, &touched) {
-            let i = lists.slots.i[slot];
-            if onset.particle != Some(i) {
-                onset.end(&mut sums, wall);
-                onset.particle = Some(i);
+        for block in segment.slots.clone().step_by(BLOCK) {
+            let own = &mut touched[block..block + BLOCK];
+            // Where nothing is active all wrenches are 0.
+            if !lists.step.active[block / BLOCK] && own.iter().all(|&t| t == 0.0) {
+                continue;
             }
-            let part = reader.part(wall, slot);
-            let sliding = reader.sliding(slot);
-            if sliding != 0.0 {
-                sums.whole[wall].sliding += sliding;
-                if let Some(part) = sums.parts[wall].of(part) {
-                    part.sliding += sliding;
-                }
+            for slot in block..(block + BLOCK).min(segment.contacts().end) {
+                add_slot(
+                    &reader,
+                    &mut sums,
+                    &mut onset,
+                    (segment, wall, slot),
+                    (&mut own[slot - block], time),
+                );
             }
-            let load = reader.load(segment, wall, slot);
-            onset.before |= touched[slot] != 0.0;
-            if let Some(load) = &load {
-                load.add(&mut sums, (wall, part), time);
-                if touched[slot] == 0.0 {
-                    onset.note(&reader, slot, part, load);
-                }
-            }
-            touched[slot] = if load.is_some() { 1.0 } else { 0.0 };
         }
         onset.end(&mut sums, wall);
     }
     sums.end_instant();
     (state.wall_sums, state.contacts.touched) = (sums, touched);
+}
+
+/// What a contact with a wall did in a step.
+fn add_slot(
+    reader: &Reader,
+    sums: &mut WallSums,
+    onset: &mut Onset,
+    (segment, wall, slot): (&Segment, usize, usize),
+    (touched, time): (&mut f64, f64),
+) {
+    let (sliding, load) = (reader.sliding(slot), reader.load(segment, wall, slot));
+    if load.is_none() && sliding == 0.0 && *touched == 0.0 {
+        return;
+    }
+    onset.turn_to(reader.lists.slots.i[slot], sums, wall);
+    let part = reader.part(wall, slot);
+    sums.whole[wall].sliding += sliding;
+    if let Some(part) = sums.parts[wall].of(part).filter(|_| sliding != 0.0) {
+        part.sliding += sliding;
+    }
+    onset.before |= *touched != 0.0;
+    if let Some(load) = &load {
+        load.add(sums, (wall, part), time);
+        if *touched == 0.0 {
+            onset.note(reader, slot, part, load);
+        }
+    }
+    *touched = if load.is_some() { 1.0 } else { 0.0 };
 }
 
 /// Takes the sums up to this instant, whose forces are known.
@@ -142,23 +162,15 @@ impl<'a> Reader<'a> {
     fn new(model: &'a Model, state: &'a State, lists: &'a NeighbourLists, moved: Moved) -> Reader<'a> {
         let time = state.time();
         let of = |w: usize| {
+            let wall = &model.walls[w];
+            if !wall.moves() {
+                return (wall.motion.reference(), Vec3::zeros());
+            }
             let pose = pose_in_box(model, state, lists, w, time);
-            (model.walls[w].reference(&pose), pose.turn)
+            (wall.reference(&pose), pose.turn)
         };
         let walls = (0..model.walls.len()).map(of).collect();
         Reader { model, state, lists, moved, period: model.cell().lengths(), walls }
-    }
-
-    /// Slots of the blocks of a segment that are active, or were a step before.
-    fn busy<'s>(&'s self, segment: &'s Segment, touched: &[f64]) -> impl Iterator<Item = usize> + use<'s> {
-        let is_busy = |block: &usize| {
-            self.lists.step.active[*block]
-                || touched[block * BLOCK..(block + 1) * BLOCK].iter().any(|&t| t != 0.0)
-        };
-        let blocks: Vec<usize> =
-            (segment.slots.start / BLOCK..segment.slots.end / BLOCK).filter(is_busy).collect();
-        let end = segment.contacts().end;
-        blocks.into_iter().flat_map(move |block| block * BLOCK..((block + 1) * BLOCK).min(end))
     }
 
     /// Number of the sphere or triangle, in the order in which its wall was given.
@@ -172,27 +184,42 @@ impl<'a> Reader<'a> {
         self.state.contacts.ledger.get(slot * LEDGER + SLIDING).copied().unwrap_or(0.0)
     }
 
-    /// Force on the particle of a contact, and torque besides.
-    fn wrench(&self, segment: &Segment, slot: usize) -> (Vec3, Vec3) {
+    /// Force on the particle of a contact, and torque besides; `None` where there is none.
+    #[inline]
+    fn wrench(&self, segment: &Segment, slot: usize) -> Option<(Vec3, Vec3)> {
         let ContactColumns { layout, wrenches, keeps, .. } = &self.state.contacts;
-        let walls = &self.lists.step.wall_wrenches;
         let (sums, row) = match keeps {
             true => (wrenches.slices(), slot),
-            false => (walls.slices(), segment.rows + segment.rank(slot)),
+            false => (self.lists.step.wall_wrenches.slices(), segment.rows + segment.rank(slot)),
         };
         let force = layout.force_at(sums.forces, row);
-        let none = force == Vec3::zeros() || sums.torques.is_empty();
-        let all = WrenchSums { first: 0, layout: *layout, sums };
-        (force, if none { Vec3::zeros() } else { all.on(row, 0.0).1 })
-    }
-
-    fn load(&self, segment: &Segment, wall: usize, slot: usize) -> Option<Load> {
-        let (force, torque) = self.wrench(segment, slot);
-        let zones = &self.state.zones;
-        let idle = |k: u32| zones.is_gone(k as usize) || zones.is_idle((k, None));
-        if force == Vec3::zeros() || !zones.none() && idle(self.lists.slots.i[slot]) {
+        if force == Vec3::zeros() {
             return None;
         }
+        let torque = match sums.torques.is_empty() {
+            true => Vec3::zeros(),
+            false => WrenchSums { first: 0, layout: *layout, sums }.on(row, 0.0).1,
+        };
+        Some((force, torque))
+    }
+
+    #[inline]
+    fn load(&self, segment: &Segment, wall: usize, slot: usize) -> Option<Load> {
+        let (force, torque) = self.wrench(segment, slot)?;
+        let zones = &self.state.zones;
+        let idle = |k: u32| zones.is_gone(k as usize) || zones.is_idle((k, None));
+        if !zones.none() && idle(self.lists.slots.i[slot]) {
+            return None;
+        }
+        Some(self.load_of(segment, (wall, slot), (force, torque)))
+    }
+
+    fn load_of(
+        &self,
+        segment: &Segment,
+        (wall, slot): (usize, usize),
+        (force, torque): (Vec3, Vec3),
+    ) -> Load {
         let k = self.lists.slots.i[slot] as usize;
         let row = segment.rows + segment.rank(slot);
         let (at, radius) = (self.lists.step.rows[row].position(), self.lists.step.rows[row].radius());
@@ -205,7 +232,7 @@ impl<'a> Reader<'a> {
         let surface = self.lists.step.rows[row].velocity() + spin.cross(&(point - at));
         let image = Image(self.lists.slots.partner[slot] / self.model.walls[wall].parts());
         let lever = point - image.shift(&self.period) - reference;
-        Some(Load {
+        Load {
             force: -force,
             torque: -lever.cross(&force) - torque,
             power: -force.dot(&surface) - torque.dot(&spin),
@@ -213,7 +240,7 @@ impl<'a> Reader<'a> {
             normal,
             point,
             surface,
-        })
+        }
     }
 
     /// Whether particle `k` was moved after its forces were computed.
@@ -255,6 +282,14 @@ struct Onset {
 }
 
 impl Onset {
+    /// Goes on with a contact of particle `i`.
+    fn turn_to(&mut self, i: u32, sums: &mut WallSums, wall: usize) {
+        if self.particle != Some(i) {
+            self.end(sums, wall);
+            self.particle = Some(i);
+        }
+    }
+
     fn note(&mut self, reader: &Reader, slot: usize, part: u32, load: &Load) {
         if !self.before && self.strongest.is_none_or(|(_, most, _)| load.normal_force > most) {
             self.strongest = Some((part, load.normal_force, reader.impact(slot, load)));

@@ -96,7 +96,7 @@ impl Simulation {
         Ok(wall_sums::take(&self.model, &mut self.state, &self.lists))
     }
 
-    /// Point of each wall that torques are told about, now [m]: on the axis of its first motion that turns, else its point at the origin at t = 0.
+    /// Point of each wall about which its torque is, now [m]: on the axis of its first motion that turns, else its point at the origin at t = 0.
     pub fn wall_references(&self) -> Vec<Vec3> {
         wall_sums::references(&self.model, &self.state, &self.lists)
     }

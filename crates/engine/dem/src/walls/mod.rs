@@ -8,6 +8,7 @@
 //! plus v_s − (v_s·n) n, with v_s that of the surface there. So a belt drives along itself and never pushes.
 
 pub(crate) mod beside;
+mod parts;
 pub(crate) mod seams;
 mod translation;
 
@@ -151,28 +152,6 @@ impl WallBody {
         }
     }
 
-    /// Number of its spheres or triangles.
-    pub fn parts(&self) -> u32 {
-        match &self.surface {
-            Surface::Spheres { centres, .. } => centres.len() as u32,
-            Surface::Plane(_) => 1,
-            Surface::Triangles { corners, .. } => corners.len() as u32,
-        }
-    }
-
-    /// Number of a part in the order in which the wall was given.
-    pub fn given(&self, part: u32) -> u32 {
-        match &self.surface {
-            Surface::Spheres { original, .. } => original[part as usize],
-            Surface::Plane(_) | Surface::Triangles { .. } => part,
-        }
-    }
-
-    /// Where the point is, in a pose, about which torques are told [m]: on the axis of the first motion that turns, else at the origin at t = 0.
-    pub fn reference(&self, pose: &Pose) -> Vec3 {
-        pose.position(&self.motion.reference())
-    }
-
     /// Wall spheres: centre and radius [m], in the order they were given.
     pub fn spheres(&self, pose: &Pose) -> Vec<(Vec3, f64)> {
         let Surface::Spheres { centres, radii, original, .. } = &self.surface else { return Vec::new() };
@@ -181,21 +160,6 @@ impl WallBody {
             out[o as usize] = (pose.position(&centres[k]), radii[k]);
         }
         out
-    }
-
-    /// Centres of spheres and centroids of triangles [m], by their numbers in the order in which the wall was given.
-    pub fn part_positions(&self, pose: &Pose, parts: impl Iterator<Item = u32>) -> Vec<Vec3> {
-        match &self.surface {
-            Surface::Spheres { .. } => {
-                let all = self.spheres(pose);
-                parts.map(|part| all[part as usize].0).collect()
-            }
-            Surface::Plane(plane) => parts.map(|_| pose.position(&plane.point)).collect(),
-            Surface::Triangles { corners, .. } => {
-                let centroid = |[a, b, c]: [Vec3; 3]| (a + b + c) / 3.0;
-                parts.map(|part| pose.position(&centroid(corners[part as usize]))).collect()
-            }
-        }
     }
 
     /// Parts of the wall, as at t = 0, within `reach` [m] of `p`, in order; of an image of it when `image`.
