@@ -30,8 +30,8 @@ enum Source {
 
 /// A run without either.
 const NO_FORCES: MeasureError = MeasureError::Channel {
-    topic: record::topic::CONTACTS,
-    what: "contacts",
+    topic: record::topic::WALL_FORCES,
+    what: "forces on walls",
     cure: "set [output] wall_forces = true, or contacts = true for the force in a part of a wall",
 };
 
