@@ -76,21 +76,22 @@ impl<'a> Finder<'a> {
     }
 
     /// Carries the numbers of a column over to the contacts of the segments that are `wanted`; by old slot, whether it was.
-    fn carry(
+    fn carry<T: Copy + Default + PartialEq>(
         &self,
         slots: &Slots,
-        before: &[f64],
-        column: &mut Vec<f64>,
+        before: &[T],
+        column: &mut Vec<T>,
         wanted: impl Fn(&Segment) -> bool,
     ) -> Vec<bool> {
         let mut carried = vec![false; before.len()];
         if before.is_empty() {
             return carried;
         }
-        *column = vec![0.0; slots.i.len()];
+        let none = T::default();
+        *column = vec![none; slots.i.len()];
         for s in slots.segments.iter().filter(|s| wanted(s)) {
             for slot in s.contacts() {
-                let holds = |_: &Segment, slot: usize| before[slot] != 0.0;
+                let holds = |_: &Segment, slot: usize| before[slot] != none;
                 if let Some(was) = self.find(slots, s, slot, holds) {
                     (column[slot], carried[was.slot]) = (before[was.slot], true);
                 }

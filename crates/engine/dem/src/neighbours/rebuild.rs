@@ -271,7 +271,7 @@ pub fn allocate(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     lists.step.kept = WrenchColumns::zeros(model.layout(), lists.slots.kept(), torques);
     state.contacts.allocate(lists.slots.i.len(), state.particles.len(), torques, model.setup.ledger);
     let with_walls = if state.wall_sums.none() { 0 } else { lists.slots.i.len() };
-    state.contacts.touched.resize(with_walls, 0.0);
+    state.contacts.touched.resize(with_walls, 0);
     state.contacts.keep_wrenches(keeps, lists.slots.i.len());
 }
 

@@ -14,7 +14,7 @@ use crate::neighbours::{NeighbourLists, Segment};
 use crate::passes::touching::position_before;
 use crate::state::{ContactColumns, State, WallInterval, WallSums};
 use geom::Vec3;
-use laws::contact::{LEDGER, WrenchSums};
+use laws::contact::{LEDGER, WrenchSlices, WrenchSums};
 use laws::simd::BLOCK;
 use laws::space::images::Image;
 
@@ -37,7 +37,7 @@ pub fn add(model: &Model, state: &mut State, lists: &NeighbourLists) {
         for block in segment.slots.clone().step_by(BLOCK) {
             let own = &mut touched[block..block + BLOCK];
             // Where nothing is active all wrenches are 0.
-            if !lists.step.active[block / BLOCK] && own.iter().all(|&t| t == 0.0) {
+            if !lists.step.active[block / BLOCK] && own.iter().all(|&t| t == 0) {
                 continue;
             }
             for slot in block..(block + BLOCK).min(segment.contacts().end) {
@@ -62,10 +62,11 @@ fn add_slot(
     sums: &mut WallSums,
     onset: &mut Onset,
     (segment, wall, slot): (&Segment, usize, usize),
-    (touched, time): (&mut f64, f64),
+    (touched, time): (&mut u8, f64),
 ) {
-    let (sliding, load) = (reader.sliding(slot), reader.load(segment, wall, slot));
-    if load.is_none() && sliding == 0.0 && *touched == 0.0 {
+    let sliding = reader.sliding(slot);
+    let load = if reader.is_pushed(segment, slot) { reader.load(segment, wall, slot) } else { None };
+    if load.is_none() && sliding == 0.0 && *touched == 0 {
         return;
     }
     onset.turn_to(reader.lists.slots.i[slot], sums, wall);
@@ -74,14 +75,14 @@ fn add_slot(
     if let Some(part) = sums.parts[wall].of(part).filter(|_| sliding != 0.0) {
         part.sliding += sliding;
     }
-    onset.before |= *touched != 0.0;
+    onset.before |= *touched != 0;
     if let Some(load) = &load {
         load.add(sums, (wall, part), time);
-        if *touched == 0.0 {
+        if *touched == 0 {
             onset.note(reader, slot, part, load);
         }
     }
-    *touched = if load.is_some() { 1.0 } else { 0.0 };
+    *touched = u8::from(load.is_some());
 }
 
 /// Takes the sums up to this instant, whose forces are known.
@@ -184,14 +185,29 @@ impl<'a> Reader<'a> {
         self.state.contacts.ledger.get(slot * LEDGER + SLIDING).copied().unwrap_or(0.0)
     }
 
+    /// Where the wrench of a contact is kept.
+    #[inline]
+    fn row_of(&self, segment: &Segment, slot: usize) -> (WrenchSlices<'_>, usize) {
+        let ContactColumns { wrenches, keeps, .. } = &self.state.contacts;
+        match keeps {
+            true => (wrenches.slices(), slot),
+            false => (self.lists.step.wall_wrenches.slices(), segment.rows + segment.rank(slot)),
+        }
+    }
+
+    /// Whether any word of a force is not 0: most listed contacts do not touch, and are passed over at once.
+    #[inline]
+    fn is_pushed(&self, segment: &Segment, slot: usize) -> bool {
+        let (sums, row) = self.row_of(segment, slot);
+        let words = self.state.contacts.layout.force();
+        sums.forces[row * words..(row + 1) * words].iter().any(|&word| word != 0.0)
+    }
+
     /// Force on the particle of a contact, and torque besides; `None` where there is none.
     #[inline]
     fn wrench(&self, segment: &Segment, slot: usize) -> Option<(Vec3, Vec3)> {
-        let ContactColumns { layout, wrenches, keeps, .. } = &self.state.contacts;
-        let (sums, row) = match keeps {
-            true => (wrenches.slices(), slot),
-            false => (self.lists.step.wall_wrenches.slices(), segment.rows + segment.rank(slot)),
-        };
+        let layout = &self.state.contacts.layout;
+        let (sums, row) = self.row_of(segment, slot);
         let force = layout.force_at(sums.forces, row);
         if force == Vec3::zeros() {
             return None;

@@ -22,7 +22,7 @@ pub struct ContactColumns {
     /// ∂F_n/∂δ of each contact in the last step, at which its springs were booked [N/m]; empty without the ledger.
     pub stiffness: Vec<f64>,
     /// 1 for each contact with a wall that touched in the last step; empty where walls have no sums.
-    pub touched: Vec<f64>,
+    pub touched: Vec<u8>,
     /// Energies of each contact in the last step, [`LEDGER`] numbers a slot [J]; empty without the ledger.
     pub ledger: Aligned,
     /// Wrench of each contact, where it is kept.
@@ -145,7 +145,7 @@ pub struct SavedColumns<'a> {
     pub history: Cow<'a, [f64]>,
     work: Cow<'a, [f64]>,
     stiffness: Cow<'a, [f64]>,
-    touched: Cow<'a, [f64]>,
+    touched: Cow<'a, [u8]>,
     /// Forces, torques and ledger of each contact, when they are those of this step and kept.
     wrenches: [Cow<'a, [f64]>; 3],
     /// Sums of forces and torques by particle, when they are those of this step and each contact's are not kept.
@@ -183,7 +183,7 @@ impl SavedColumns<'_> {
             history: own(self.history),
             work: own(self.work),
             stiffness: own(self.stiffness),
-            touched: own(self.touched),
+            touched: Cow::Owned(self.touched.into_owned()),
             wrenches: self.wrenches.map(own),
             sums: self.sums.map(own),
         }
