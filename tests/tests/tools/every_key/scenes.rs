@@ -103,6 +103,7 @@ every = "step"
 energy = false
 contacts = false
 wall_forces = false
+wear = false
 precision = "f32"
 [domain]
 periodic = ["z"]
