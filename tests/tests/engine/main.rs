@@ -16,3 +16,4 @@ mod servo;
 mod servo_shear;
 mod sleep;
 mod strained_cell;
+mod wall_sums;

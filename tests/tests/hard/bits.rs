@@ -104,6 +104,7 @@ fn crowd(mut setup: Setup, side: u32) -> Setup {
 fn bits(setup: Setup, width: Width, threads: usize, steps: u64) -> Vec<u64> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
     pool.install(|| {
+        let setup = Setup { wall_sums: WallDetail::Parts, ..setup };
         let mut sim = Simulation::with_width(setup, width).expect("sound");
         let mut crossings = Vec::new();
         for _ in 0..steps {
@@ -114,6 +115,14 @@ fn bits(setup: Setup, width: Width, threads: usize, steps: u64) -> Vec<u64> {
         let mut all: Vec<f64> = sim.particles().expect("fine").iter().flat_map(of).collect();
         all.extend(crossings.iter().flat_map(|c| [vec![c.time], of(&c.particle)].concat()));
         all.extend(sim.wall_forces().expect("fine").iter().flat_map(|f| [f.force.x, f.force.y, f.force.z]));
+        let sums = sim.take_wall_sums().expect("fine");
+        let of_wall = |w: &dem::WallSum| {
+            let own = [w.work, w.normal, w.largest, w.sliding, w.impacts as f64];
+            [&own[..], w.impulse.as_slice(), w.moment.as_slice(), &w.impact_energy].concat()
+        };
+        all.extend(sums.walls.iter().flat_map(of_wall));
+        let of_part = |p: &dem::PartSum| [p.normal, p.largest, p.sliding, p.impact_energy[0]];
+        all.extend(sums.parts.iter().flatten().flat_map(of_part));
         let e = sim.energy().expect("fine");
         all.extend([
             e.translation,

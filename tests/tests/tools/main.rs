@@ -43,4 +43,5 @@ mod stamps;
 mod streams;
 mod transform;
 mod view_in_chromium;
+mod wall_sums;
 mod walls_told;

@@ -35,6 +35,18 @@ pub const CLUSTER: &str = "cluster";
 pub const MASS: &str = "mass";
 /// Index of a wall.
 pub const WALL: &str = "wall";
+/// Number of a sphere or triangle of a wall.
+pub const PART: &str = "part";
+/// Length of the time that sums are of [s].
+pub const INTERVAL: &str = "interval";
+/// Time integral of a normal force, without its sign [N·s].
+pub const NORMAL_IMPULSE: &str = "normal_impulse";
+/// Largest normal force of a contact [N].
+pub const LARGEST_NORMAL: &str = "largest_normal";
+/// Grains that came to touch a part of a wall.
+pub const IMPACTS: &str = "impacts";
+/// Energy of their approach along the normal, and along the surface [J].
+pub const IMPACT_ENERGY: [&str; 2] = ["impact_normal", "impact_tangential"];
 /// Unit normal of a contact, from j to i [–].
 pub const NORMAL: Vector = ["nx", "ny", "nz"];
 /// Force on i [N].

@@ -18,8 +18,10 @@ pub const WALLS: &str = "/walls";
 pub const SURFACES: &str = "/surfaces";
 /// The energy ledger; JSON.
 pub const ENERGY: &str = "/energy";
-/// Forces on walls; JSON.
+/// What grains do to walls; JSON.
 pub const WALL_FORCES: &str = "/wall_forces";
+/// A row for each wall sphere and triangle that was touched since the frame before.
+pub const WALL_WEAR: &str = "/wall_wear";
 /// The periodic domain where it changes; JSON, see [`crate::DomainRecord`].
 pub const DOMAIN: &str = "/domain";
 /// How far the grains are from rest, as JSON.

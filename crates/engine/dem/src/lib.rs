@@ -48,7 +48,6 @@ pub use model::{
     CriticalPartner, Entrance, Halt, Limit, OutOfRange, Partner, Pull, Quantity, RepeatedMotion, SetupError,
     StateMismatch, StepCause, Stiffer, Subject,
 };
-pub use observe::record::ContactRecord;
 pub use observe::snapshot::Snapshot;
 pub use observe::stiffen::{DeepImpact, Impacting, deep_impact};
 pub use passes::cell::CellReport;
@@ -58,4 +57,6 @@ pub use setup::Setup;
 pub use simulation::{Checkpoint, ContactBytes, EffectCost, MatchedDamping, Simulation};
 pub use space::mass;
 pub use space::rotation::spun;
-pub use state::{BondState, Crack, Energy, Held, HeldBack, Returned};
+pub use state::{
+    BondState, ContactRecord, Crack, Energy, Held, HeldBack, PartSum, Returned, WallInterval, WallSum,
+};

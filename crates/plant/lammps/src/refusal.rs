@@ -85,6 +85,7 @@ fn leavable(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
     all_of([
         (keys.sleep.is_some(), "sleep", "particles of LAMMPS do not sleep", "leave it out"),
         (keys.output.energy, "output.energy", ledger, "leave it out"),
+        (keys.output.wear, "output.wear", ledger, "leave it out, or use dem-run"),
         (keys.guards.energy_share().is_some(), "guards.energy", ledger, "leave it out"),
         (
             setup.precision != Precision::Double,

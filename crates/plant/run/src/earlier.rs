@@ -77,13 +77,14 @@ impl Earlier {
 }
 
 /// What a frame is made of.
-const FRAMES: [&str; 8] = [
+const FRAMES: [&str; 9] = [
     topic::PARTICLES,
     topic::BODIES,
     topic::BONDS,
     topic::CONTACTS,
     topic::DOMAIN,
     topic::WALL_FORCES,
+    topic::WALL_WEAR,
     topic::SETTLING,
     topic::ENERGY,
 ];

@@ -4,6 +4,7 @@ use crate::error::Result;
 use crate::frames::{self, ParticleRows, WallHead};
 use crate::schedule::Schedule;
 use crate::start::{Head, in_file};
+use crate::walls;
 use dem::setup::{Crossing, Particle, Wall, WallShape};
 use dem::{BondState, ClumpState, ContactRecord, Crack, WallForce};
 use geom::Vec3;
@@ -143,7 +144,7 @@ impl<W: Write> RunFile<W> {
     /// # Errors
     /// A write that fails.
     pub fn wall_forces(&mut self, time: f64, forces: &[WallForce]) -> Result<()> {
-        let message = frames::wall_forces(time, forces, &self.heads);
+        let message = walls::forces(time, forces, &self.heads, None);
         self.writer.bytes(topic::WALL_FORCES, "json", nanoseconds(time), json(&message).as_bytes())?;
         Ok(self.writer.flush_chunk()?)
     }

@@ -1,9 +1,7 @@
 //! Tables and messages of a run: particles, clumps, contacts, bonds and walls at one time.
 
 use dem::setup::{ClumpShape, Clumps, Particle, Setup, Target, Wall, WallShape, cluster_of};
-use dem::{
-    BondState, BreakMode, CellReport, ClumpState, ContactRecord, Crack, Simulation, Snapshot, WallForce,
-};
+use dem::{BondState, BreakMode, CellReport, ClumpState, ContactRecord, Crack, Simulation, Snapshot};
 use geom::Vec3;
 use record::column::{self, FIRST, FORCE, ID, MATERIAL, NORMAL, POSITION, RADIUS, SECOND, SPIN, VELOCITY};
 use record::{ClumpRecord, DomainRecord, Map, SurfaceShape, TableBuilder, WallRecord};
@@ -11,7 +9,7 @@ use scene::keys::Precision;
 use serde_json::{Value, json};
 use stream::{Line, NumberType, Rows, Table, Values};
 
-fn kind(precision: Precision) -> NumberType {
+pub(crate) fn kind(precision: Precision) -> NumberType {
     match precision {
         Precision::F64 => NumberType::F64,
         Precision::F32 => NumberType::F32,
@@ -240,27 +238,6 @@ pub(crate) fn heads(setup: &Setup) -> Vec<WallHead> {
         spheres: matches!(w.shape, WallShape::Spheres(_)),
     };
     setup.walls.iter().map(head).collect()
-}
-
-/// The message of the topic `/wall_forces`: force on each wall [N], and its shift [m].
-pub(crate) fn wall_forces(time: f64, forces: &[WallForce], walls: &[WallHead]) -> Value {
-    let one = |(f, w): (&WallForce, &WallHead)| {
-        let mut wall = json!({"name": w.name, "force": f.force, "shift": f.shift, "contacts": f.contacts});
-        if let Some(s) = &f.servo {
-            wall["servo"] = json!({"target": s.target, "push": s.push});
-            let mut put = |key: &str, value: Option<f64>| {
-                if let Some(value) = value {
-                    wall["servo"][key] = value.into();
-                }
-            };
-            put("area", s.area);
-            put("reached", s.held.since);
-            put("mean_deviation", s.held.mean());
-            put("worst_deviation", s.held.mean().map(|_| s.held.worst));
-        }
-        wall
-    };
-    json!({"time": time, "walls": forces.iter().zip(walls).map(one).collect::<Vec<_>>()})
 }
 
 /// The message of the topic `/domain`: the periodic domain, with what strains it.

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`underway`] is what a run holds, [`simulate`] the loop; [`start`], [`write`] and [`stop`] are its beginning, its output and its early end. [`supply`] merges what comes
-//! in, [`schedule`] knows which steps are written, [`frames`] makes the tables, [`checkpoint`] saves and resumes, [`earlier`] copies what a resumed run wrote before. [`explain`] runs a part of a
+//! in, [`schedule`] knows which steps are written, [`frames`] and [`walls`] make the tables, [`checkpoint`] saves and resumes, [`earlier`] copies what a resumed run wrote before. [`explain`] runs a part of a
 //! scene to measure it. [`RunFile`] writes the same file for a run that another engine computes. Uses `scene` for the plan, `stages` for inlets and crossings, `record` for formats, `dem` for the engine.
 
 mod checkpoint;
@@ -27,6 +27,7 @@ mod start;
 mod stop;
 mod supply;
 mod underway;
+mod walls;
 mod write;
 
 pub use checkpoint::Checkpoint;

@@ -7,7 +7,7 @@ use crate::settling::Settling;
 use crate::supply::Supply;
 use crate::underway::{Outcome, Run, Settings, Written};
 use dem::Simulation;
-use dem::setup::{Setup, WallShape, Zone, ZoneMotion};
+use dem::setup::{Setup, WallDetail, WallShape, Zone, ZoneMotion};
 use geom::Shown;
 use record::{BondRange, Map, MaterialRecord, RunTimes, Sizes, json, metadata};
 use scene::input::ZoneRecord;
@@ -106,7 +106,7 @@ pub(crate) fn in_file(scene: &Scene, text: &str) -> String {
 
 impl Written {
     fn new(scene: &Scene, setup: &Setup, inputs: Vec<(String, String)>) -> Written {
-        let (servo, domain) = (setup.walls.iter().any(|w| w.servo.is_some()), &scene.keys.domain);
+        let domain = &scene.keys.domain;
         let density = |m: u16| setup.materials[m as usize].density;
         let spheres_move = |w: &dem::setup::Wall| matches!(w.shape, WallShape::Spheres(_)) && w.moves();
         Written {
@@ -118,7 +118,8 @@ impl Written {
             masses: setup.clumps.shapes.iter().map(|s| s.mass(1.0, density(s.material))).collect(),
             output: scene.keys.output.clone(),
             domain: (!domain.strain.is_empty() || domain.source.is_some()).then_some(setup.periodic),
-            wall_forces: scene.keys.output.wall_forces == Some(true) || servo,
+            wall_forces: setup.wall_sums != WallDetail::Off,
+            wear: setup.wall_sums == WallDetail::Parts,
             sampling: None,
             watched: false,
             below: None,

@@ -108,6 +108,8 @@ pub(crate) struct Written {
     pub output: Output,
     /// Whether forces on walls are written: as the scene asks for it, and where a wall has a servo.
     pub wall_forces: bool,
+    /// Whether the sums of their spheres and triangles are.
+    pub wear: bool,
     /// The periodic domain at the start, where a run cannot be read by its scene alone.
     pub domain: Option<[Option<(f64, f64)>; 3]>,
     /// How far walls reach, where particles can fall past them.

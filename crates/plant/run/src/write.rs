@@ -2,7 +2,8 @@
 
 use crate::error::{Ended, Result};
 use crate::frames::{self, ParticleRows};
-use crate::underway::{Before, FrameEnergy, Run};
+use crate::underway::{Before, FrameEnergy, Run, Written};
+use crate::walls::{self, Interval};
 use dem::setup::KeptContact;
 use record::{FRAME, Watermark, json, topic};
 use scene::input::history;
@@ -43,8 +44,8 @@ impl<W: Write> Run<W> {
             let given = || self.supply.given.clone();
             self.before = held.then(|| Before { given: given(), state: self.sim.checkpoint().to_static() });
         }
-        if resumed && frame && self.written.output.contacts {
-            self.drop_work()?;
+        if resumed && frame {
+            self.drop_sums()?;
         }
         if resumed || !(frame || checkpoint) {
             return Ok(());
@@ -61,11 +62,20 @@ impl<W: Write> Run<W> {
         Ok(self.writer.flush_chunk()?)
     }
 
-    /// Drops the sliding work that the frame of this instant has: its checkpoint was saved before it, so that the first frame of the resumed run would
-    /// have that work once more.
-    fn drop_work(&mut self) -> Result<(), Ended> {
-        self.let_in()?;
-        self.sim.record_contacts()?;
+    /// Drops the sliding work and the sums of walls that the frame of this instant has: its checkpoint was saved before it, so that the first frame of the resumed run would
+    /// have them once more.
+    fn drop_sums(&mut self) -> Result<(), Ended> {
+        let Written { output, wall_forces, .. } = &self.written;
+        let (contacts, walls) = (output.contacts, *wall_forces);
+        if contacts || walls {
+            self.let_in()?;
+        }
+        if contacts {
+            self.sim.record_contacts()?;
+        }
+        if walls {
+            self.sim.take_wall_sums()?;
+        }
         Ok(())
     }
 
@@ -113,13 +123,27 @@ impl<W: Write> Run<W> {
             }
         }
         self.outcome.frames += 1;
-        if self.written.wall_forces {
-            let forces = self.sim.wall_forces()?;
-            let message = frames::wall_forces(self.sim.time(), &forces, &self.written.walls);
-            self.writer.bytes(topic::WALL_FORCES, "json", now, json(&message).as_bytes())?;
-        }
+        self.write_wall_sums()?;
         self.write_settling()?;
         self.write_energy()
+    }
+
+    /// Writes what grains have done to walls since the frame before, and their forces of this instant.
+    fn write_wall_sums(&mut self) -> Result<(), Ended> {
+        if !self.written.wall_forces {
+            return Ok(());
+        }
+        let (now, forces) = (self.now(), self.sim.wall_forces()?);
+        let sums = self.sim.take_wall_sums()?;
+        let interval =
+            Interval { sums: &sums, about: self.sim.wall_references(), slides: self.written.ledger };
+        let message = walls::forces(self.sim.time(), &forces, &self.written.walls, Some(&interval));
+        self.writer.bytes(topic::WALL_FORCES, "json", now, json(&message).as_bytes())?;
+        if self.written.wear {
+            let table = walls::wear(&self.sim, &sums, self.written.output.precision);
+            self.writer.points(topic::WALL_WEAR, now, FRAME, table)?;
+        }
+        Ok(())
     }
 
     /// Writes the ledger, and keeps the energies for progress reports.

@@ -29,7 +29,8 @@ pub use geometry::{ball, cylinder, periodic, region};
 pub use mechanics::{coordination, domain, energy, forces, plane_force, settling, strain, stress};
 pub use observer::{Observer, OfFrame, PerFrame};
 pub use reading::{
-    Contact, Contacts, Crossing, ForceOnWall, Frame, Ledger, Partner, Run, RunMessage, Selected, WallForces,
+    Contact, Contacts, Crossing, ForceOnWall, Frame, Ledger, PartWear, Partner, Run, RunMessage, Selected,
+    WallForces, WallMeans, WallWear,
 };
 pub use reading::{WallSpheres, Which, path, run, selection, settled};
 pub use shape::{bed, radial, repose};

@@ -39,7 +39,10 @@ impl Overview {
                 return;
             }
             RunMessage::Bonds(_) | RunMessage::Cracks(_) => {}
-            RunMessage::Contacts(_) | RunMessage::Settled(_) | RunMessage::Domain(_) => return,
+            RunMessage::Contacts(_)
+            | RunMessage::Settled(_)
+            | RunMessage::Domain(_)
+            | RunMessage::WallWear(_) => return,
         }
         let _ = self.bonds.0.observe(run, message, &mut self.bonds.1);
     }
@@ -57,7 +60,8 @@ impl Overview {
             if self.walls.len() <= k {
                 self.walls.push((wall.name.clone(), Vec::new()));
             }
-            self.walls[k].1.push([forces.time, wall.force.norm()]);
+            let force = wall.means.map_or(wall.force, |means| means.force);
+            self.walls[k].1.push([forces.time, force.norm()]);
         }
     }
 
@@ -172,8 +176,9 @@ mod tests {
                 force: Vec3::new(0.0, f, 0.0),
                 contacts: 1,
                 shift: None,
+                means: None,
             };
-            let forces = WallForces { time, walls: vec![wall(-3.0 * time)] };
+            let forces = WallForces { time, interval: None, walls: vec![wall(-3.0 * time)] };
             overview.take(&run, RunMessage::WallForces(forces));
         }
         // The mass is the same all the time.

@@ -62,6 +62,10 @@ impl Draw {
             let on = self.pick(&["true", "true", "true", "false"]);
             self.maybe(0.9, format!("{key} = {on}"));
         }
+        // No random choice: the scenes of all seeds stay as they are.
+        if self.choices.inserted {
+            self.line("wear = true");
+        }
         self.maybe(0.2, "precision = \"f64\"");
     }
 

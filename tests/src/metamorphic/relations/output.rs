@@ -16,7 +16,7 @@ pub fn threads(case: &Case, random: &mut Pcg64Mcg) -> Option<Verdict> {
 /// The program of the GPU, on this processor. It keeps no ledger.
 pub fn device(case: &Case, _: &mut Pcg64Mcg) -> Option<Verdict> {
     let mut scene = case.scene.clone();
-    for key in ["energy", "contacts"] {
+    for key in ["energy", "contacts", "wall_forces"] {
         scene.set("output", key, false);
     }
     scene.keys.get_mut("guards").and_then(|g| g.as_table_mut()).map(|guards| guards.remove("energy"));

@@ -42,6 +42,7 @@ checkpoint = 0.001
 energy = true
 contacts = true
 wall_forces = true
+wear = true
 precision = "f64"
 [domain]
 periodic = ["x", "y"]
@@ -102,6 +103,7 @@ every = "step"
 energy = false
 contacts = false
 wall_forces = false
+wear = false
 precision = "f32"
 [domain]
 periodic = ["z"]

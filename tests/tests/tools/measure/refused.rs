@@ -22,9 +22,12 @@ const OF_ONE_FRAME: &[Case] = &[
     Case { arguments: &["--forces"], parts: &["run holds no contacts: set [output] contacts = true"] },
     Case {
         arguments: &["--wall-force", "all"],
-        parts: &["run holds no contacts: set [output] contacts = true"],
+        parts: &["run holds no forces on walls: set [output] wall_forces = true"],
     },
-    Case { arguments: &["--wear", "all"], parts: &["run holds no contacts: set [output] contacts = true"] },
+    Case {
+        arguments: &["--wear", "all"],
+        parts: &["run holds no wear of walls: set [output] wear = true, or contacts = true and give --cell"],
+    },
     Case { arguments: &["--flow", "0,0,0,0,0,1"], parts: &["run has 1 frame:", "set [output] every"] },
     Case { arguments: &["--residence", "all"], parts: &["run has 1 frame:"] },
     Case { arguments: &["--porosity", "box:0,0,0,1,1,0"], parts: &["volume of 0 m³", "larger shape"] },

@@ -1,7 +1,7 @@
 //! The force on walls from what a run holds: contacts, or sums for whole walls.
 
 use super::made::{Made, grain};
-use super::{column, failed, measure, saved};
+use super::{column, failed, measure, saved, sum};
 use grainpipe_tests::tools::succeed;
 use std::fs;
 use tempfile::{TempDir, tempdir};
@@ -56,31 +56,60 @@ fn a_part_of_a_wall_needs_contacts() {
     assert!(message.contains("/wall_forces at 0 s: wall 0 has no force of three numbers"), "{message}");
 }
 
-/// A run that records both gives the same force either way.
+/// Grains that tumble in a box: means over all steps of seldom frames are those of the contacts of every step, and the work is that of the contacts.
 #[test]
-fn both_sources_agree_in_a_run() {
+fn means_of_seldom_frames_are_those_of_every_step() {
     let folder = tempdir().unwrap();
-    let scene = |output: &str| {
-        format!(
-            "gravity = [0, 0, -9.81]\n[time]\nuntil = 0.05\n[output]\nevery = 0.01\nprecision = \"f64\"\n{output}\
-             [[material]]\nname = \"m\"\ndensity = 2500\nyoung = 1e6\npoisson = 0.3\n[[contact]]\n\
-             between = [\"*\", \"*\"]\nrestitution = 0.5\nsliding_friction = 0.3\n[[fill]]\nmaterial = \"m\"\n\
-             shape = \"box:0,0,0,0.05,0.05,0.06\"\ndiameter = 0.01\ncount = 60\n[[wall]]\nname = \"box\"\n\
-             box = [0, 0, 0, 0.05, 0.05, 0.2]\nmaterial = \"m\"\n"
-        )
+    let scene = "gravity = [0, 0, -9.81]\n[time]\nuntil = 0.05\ndt = 5e-5\n[[material]]\nname = \"m\"\ndensity = 2500\n\
+        young = 1e6\npoisson = 0.3\n[[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 0.5\nsliding_friction = 0.3\n\
+        [[fill]]\nmaterial = \"m\"\nshape = \"box:0,0,0.004,0.05,0.05,0.07\"\ndiameter = 0.01\ncount = 60\n\
+        [[wall]]\nname = \"box\"\nbox = [0, 0, 0, 0.05, 0.05, 0.2]\nmaterial = \"m\"\n\
+        [[wall]]\nname = \"tile\"\nmesh = \"tile.ply\"\nmaterial = \"m\"\nmotion = { translate = [0.2, 0, 0] }\n";
+    let tile = "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n\
+        element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0.001\n0.05 0 0.001\n0 0.05 0.001\n3 0 1 2\n";
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    fs::write(folder.path().join("tile.ply"), tile).unwrap();
+    let summary = |sets: &[&str], measure_of: &[&str], name: &str| {
+        let sets = sets.iter().flat_map(|set| ["--set", set]);
+        let arguments: Vec<&str> = ["scene.toml", "-o", "run.mcap"].into_iter().chain(sets).collect();
+        succeed(folder.path(), "dem-run", &arguments);
+        let values: Vec<f64> = ["mean_fx", "mean_fz", "largest_force", "sliding_work"]
+            .iter()
+            .map(|value| sum(&folder, measure_of, value))
+            .collect();
+        let said = measure(&folder, measure_of).stderr;
+        assert!(said.contains(name), "{name}: {said}");
+        values
     };
-    let forces = |name: &str, output: &str| {
-        fs::write(folder.path().join("scene.toml"), scene(output)).unwrap();
-        succeed(folder.path(), "dem-run", &["scene.toml", "-o", "run.mcap"]);
-        let done = measure(&folder, &["--wall-force", "all"]);
-        assert!(done.stderr.contains(name), "{name}: {}", done.stderr);
-        ["fx", "fy", "fz", "contacts"].map(|name| column(&done, name))
-    };
-    let of_contacts = forces("from recorded contacts", "contacts = true\nwall_forces = true\n");
-    let of_walls = forces("from forces on whole walls", "wall_forces = true\n");
-    let largest = of_walls[2].iter().copied().fold(0.0, |m: f64, f| m.max(f.abs()));
-    assert!(largest > 0.0);
-    for (a, b) in of_contacts.iter().flatten().zip(of_walls.iter().flatten()) {
-        assert!((a - b).abs() <= 1e-9 * largest, "{a} {b}");
+    let all = ["--wall-force", "all", "--wall", "tile"];
+    let every_step =
+        summary(&["output.contacts=true", "output.every=step"], &all, "from recorded contacts: forces are");
+    let seldom = summary(
+        &["output.every=0.025", "output.energy=true", "output.wall_forces=true"],
+        &all,
+        "sums over every step",
+    );
+    let (push, pull) = (every_step[1], every_step[0]);
+    // The first and the last instant count half, or whole.
+    assert!(push < 0.0 && (seldom[1] / push - 1.0).abs() < 2e-3, "{seldom:?} {every_step:?}");
+    assert!((seldom[0] - pull).abs() < 2e-3 * push.abs(), "{seldom:?} {every_step:?}");
+    for k in [2, 3] {
+        assert!((seldom[k] / every_step[k] - 1.0).abs() < 1e-9, "{seldom:?} {every_step:?}");
     }
+    // The map of the tile is one of its triangle, where its file has it.
+    summary(&["output.every=0.025", "output.wear=true"], &all, "sums over every step");
+    let wear = measure(&folder, &["--wear", "all", "--wall", "tile"]);
+    let place = ["x", "y", "z"].map(|axis| column(&wear, axis)[0]);
+    assert!((place[0] - 0.05 / 3.0).abs() < 1e-12 && (place[2] - 0.001).abs() < 1e-12, "{place:?}");
+    let (work, area) = (column(&wear, "sliding_work"), 0.5 * 0.05 * 0.05);
+    assert!((work[0] / every_step[3] - 1.0).abs() < 1e-9 && work.len() == 1, "{work:?}");
+    assert!((column(&wear, "work_per_area")[0] * area / work[0] - 1.0).abs() < 1e-9);
+    assert!(column(&wear, "impacts")[0] > 0.0);
+    // Of cubes, too, it is one of the body.
+    let cells = summary(
+        &["output.every=0.025", "output.contacts=true"],
+        &["--wear", "all", "--wall", "tile", "--cell", "0.06"],
+        "sliding_work",
+    );
+    assert!((cells[3] / every_step[3] - 1.0).abs() < 1e-9, "{cells:?}");
 }

@@ -26,6 +26,7 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     refuse(state.sleepers.is_some(), "sleep");
     refuse(state.strained.is_some(), "a strained domain");
     refuse(setup.ledger || setup.guards.energy.is_finite(), "the energy ledger");
+    refuse(!state.wall_sums.none(), "forces on walls over all steps (output.wall_forces)");
     refuse(setup.precision != Precision::Double, "contacts in single precision");
     for (body, wall) in model.walls.iter().zip(&setup.walls) {
         refuse(body.answers(), &format!("wall '{}', which follows a force or stands on a spring", wall.name));

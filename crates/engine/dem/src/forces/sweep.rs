@@ -13,7 +13,7 @@ use crate::neighbours::{Computed, NeighbourLists, RestingTile, Slots, TileSlice}
 use crate::passes::integrate::ParticleSlices;
 use crate::passes::sleep::advance_awake;
 use crate::passes::waking::{Movers, Stirred};
-use crate::state::{Bonds, Forces, Particles, Sleepers, State};
+use crate::state::{Bonds, Forces, Particles, Sleepers, State, WrenchColumns};
 use crate::threads::{FEW, share};
 use geom::motion::Pose;
 use laws::contact::{MoveFlags, StepInputs, Sums, WrenchSlices};
@@ -94,8 +94,8 @@ fn compute(
     lists: &mut NeighbourLists,
     observed: bool,
 ) -> Vec<Range<usize>> {
-    let keeps = observed && model.setup.record_wrenches || state.keeps_wrenches();
-    state.contacts.keep_wrenches(keeps, lists.slots.i.len());
+    let recorded = model.setup.record_wrenches || !state.wall_sums.none();
+    keep_wrenches(model, state, lists, observed && recorded || state.keeps_wrenches());
     for_each_tile(model, state, lists, |slice, resting, inputs, sums| match resting {
         Some(resting) => resting.compute(slice, inputs, sums),
         None => forces_of_tile(slice, 0..slice.segments.len(), inputs, sums),
@@ -205,8 +205,7 @@ fn is_sequential(state: &State) -> bool {
 
 /// Both halves of each tile at once.
 fn step_tile_by_tile(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> StepFlags {
-    let keeps = state.keeps_wrenches();
-    state.contacts.keep_wrenches(keeps, lists.slots.i.len());
+    keep_wrenches(model, state, lists, state.keeps_wrenches());
     keep_rows(model, state, lists);
     let (poses, cell) = (poses(model, state, lists), state.cell(model));
     let lengths = cell.lengths();
@@ -238,6 +237,20 @@ fn step_inputs<'a>(model: &Model, particles: &'a Particles, layout: Layout) -> S
     let Particles { rows, spins, .. } = particles;
     let (dt, ahead) = (model.dt, model.ahead());
     StepInputs { dt, ahead, overlap_limit: model.setup.guards.overlap, rows, spins, layout }
+}
+
+/// Whether the wrenches of all contacts are kept from now on; where walls have sums, at least those with walls are. As all, they begin at 0.
+fn keep_wrenches(model: &Model, state: &mut State, lists: &mut NeighbourLists, all: bool) {
+    state.contacts.keep_wrenches(all, lists.slots.i.len());
+    if state.wall_sums.none() {
+        return;
+    }
+    let walls = &mut lists.step.wall_wrenches;
+    if all {
+        *walls = WrenchColumns::default();
+    } else if walls.forces.is_empty() {
+        *walls = WrenchColumns::zeros(model.layout(), lists.slots.rows(), state.torques(model));
+    }
 }
 
 /// Notes how particles move before they do; a fluid and local damping ask for that, of spheres that move on their own.

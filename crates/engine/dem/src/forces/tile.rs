@@ -99,6 +99,10 @@ impl TileSlice<'_> {
         } else {
             &[]
         };
+        let each = match s.with {
+            With::Wall(_) if !self.walls.forces.is_empty() => self.walls.rows_mut(row, n, self.layout),
+            _ => self.each.rows_mut(first, n, self.layout),
+        };
         let (kept, kept_n) = if s.keeps() { (s.kept - self.from.kept + within, n) } else { (0, 0) };
         let batch = Batch {
             partners,
@@ -110,7 +114,7 @@ impl TileSlice<'_> {
             both: s.both(),
             kept: self.kept.rows_mut(kept, kept_n, self.layout),
             patch,
-            each: self.each.rows_mut(first, n, self.layout),
+            each,
             ledger: rows_mut(self.ledger, first * LEDGER, n * LEDGER),
         };
         composition.run(inputs.model.width, inputs.step, batch)

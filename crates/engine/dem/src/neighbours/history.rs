@@ -75,6 +75,31 @@ impl<'a> Finder<'a> {
         }
     }
 
+    /// Carries the numbers of a column over to the contacts of the segments that are `wanted`; by old slot, whether it was.
+    fn carry<T: Copy + Default + PartialEq>(
+        &self,
+        slots: &Slots,
+        before: &[T],
+        column: &mut Vec<T>,
+        wanted: impl Fn(&Segment) -> bool,
+    ) -> Vec<bool> {
+        let mut carried = vec![false; before.len()];
+        if before.is_empty() {
+            return carried;
+        }
+        let none = T::default();
+        *column = vec![none; slots.i.len()];
+        for s in slots.segments.iter().filter(|s| wanted(s)) {
+            for slot in s.contacts() {
+                let holds = |_: &Segment, slot: usize| before[slot] != none;
+                if let Some(was) = self.find(slots, s, slot, holds) {
+                    (column[slot], carried[was.slot]) = (before[was.slot], true);
+                }
+            }
+        }
+        carried
+    }
+
     /// Where a contact was that `holds` something. In a small periodic box two images of one particle may be listed with another; only one
     /// of them can touch it.
     fn find(
@@ -114,11 +139,12 @@ impl<'a> Finder<'a> {
     }
 }
 
-/// Gives each new contact its history, the work that it has done, and the stiffness at which its springs were booked. What contacts have done that are no longer listed is lost to records.
-pub fn carry_over(model: &Model, state: &mut State, lists: &NeighbourLists, old: &OldContacts) {
+/// Gives each new contact its history, the work that it has done, the stiffness at which its springs were booked, and whether it touched a wall. By old slot, whether
+/// the work is that of a contact that is listed again.
+pub fn carry_over(model: &Model, state: &mut State, lists: &NeighbourLists, old: &OldContacts) -> Vec<bool> {
     let finder = Finder::new(model, old, &lists.wall_periods);
     let (slots, many) = (&lists.slots, state.particles.len() >= LISTED_FEW);
-    let ContactColumns { layout, history, work, stiffness, .. } = &mut state.contacts;
+    let ContactColumns { layout, history, work, stiffness, touched, .. } = &mut state.contacts;
     if !history.is_empty() && !old.columns.history.is_empty() {
         let mut rest = &mut history[..];
         let mut pieces = Vec::with_capacity(slots.segments.len());
@@ -130,16 +156,9 @@ pub fn carry_over(model: &Model, state: &mut State, lists: &NeighbourLists, old:
         }
         share(many, pieces, |(s, history)| finder.fill(slots, s, history));
     }
-    for (column, before) in [(work, &old.columns.work), (stiffness, &old.columns.stiffness)] {
-        if before.is_empty() {
-            continue;
-        }
-        *column = vec![0.0; slots.i.len()];
-        for s in &slots.segments {
-            for slot in s.contacts() {
-                let holds = |_: &Segment, slot: usize| before[slot] != 0.0;
-                column[slot] = finder.find(slots, s, slot, holds).map_or(0.0, |was| before[was.slot]);
-            }
-        }
-    }
+    let all = |_: &Segment| true;
+    let carried = finder.carry(slots, &old.columns.work, work, all);
+    finder.carry(slots, &old.columns.stiffness, stiffness, all);
+    finder.carry(slots, &old.columns.touched, touched, |s| s.with.is_wall());
+    carried
 }

@@ -3,6 +3,7 @@
 //! `rebuild` makes them from Model and State alone, so that a resumed run has the same lists, and carries contact history over. `slots`
 //! is their layout: tiles of particles, segments of one kind of contact, blocks of slots. Uses model, state, space, walls, laws.
 
+pub mod contact_records;
 pub mod history;
 pub mod list;
 pub mod poses;

@@ -1,6 +1,7 @@
 //! Rebuilds the lists: sorts the particles in space, and finds pairs and walls near them.
 
 use crate::model::{Model, With};
+use crate::neighbours::contact_records;
 use crate::neighbours::history::carry_over;
 use crate::neighbours::poses::{around, periods_travelled, pose_listed, shift_into_box, wall_shift};
 use crate::neighbours::{List, NeighbourLists, OldContacts, Slots, StepColumns};
@@ -32,6 +33,7 @@ impl KindTable {
 
 /// Sorts particles, lists contacts, and carries their history over.
 pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
+    let worked = contact_records::with_work(model, state, lists);
     adapt_skin(model, state);
     let wraps = wrap(model, state);
     let wall_periods = std::mem::take(&mut lists.wall_periods);
@@ -41,7 +43,7 @@ pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     // Freed before anything is listed: old and new together would be the most memory that a run ever takes.
     lists.step = StepColumns::default();
     columns.release();
-    let carries = !columns.history.is_empty() || !columns.work.is_empty();
+    let carries = !columns.history.is_empty() || !columns.work.is_empty() || !columns.touched.is_empty();
     if carries && slots.starts.is_empty() {
         slots.index();
     }
@@ -53,7 +55,8 @@ pub fn rebuild(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     }
     list_contacts(model, state, lists, search);
     let old = OldContacts { slots, columns, order, wraps, wall_periods };
-    carry_over(model, state, lists, &old);
+    let carried = carry_over(model, state, lists, &old);
+    state.ended.extend(worked.into_iter().filter(|(slot, _)| !carried[*slot]).map(|(_, record)| record));
     drop(old);
     allocate(model, state, lists);
     state.listing.status = ListStatus::Valid;
@@ -269,6 +272,8 @@ pub fn allocate(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
     let (torques, keeps) = (state.torques(model), state.keeps_wrenches());
     lists.step.kept = WrenchColumns::zeros(model.layout(), lists.slots.kept(), torques);
     state.contacts.allocate(lists.slots.i.len(), state.particles.len(), torques, model.setup.ledger);
+    let with_walls = if state.wall_sums.none() { 0 } else { lists.slots.i.len() };
+    state.contacts.touched.resize(with_walls, 0);
     state.contacts.keep_wrenches(keeps, lists.slots.i.len());
 }
 

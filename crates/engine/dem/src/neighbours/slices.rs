@@ -24,6 +24,8 @@ pub struct StepColumns {
     pub active: Vec<bool>,
     /// Wrenches that are kept for other tiles.
     pub kept: WrenchColumns,
+    /// Wrenches of contacts with walls, by row of their contact points, where walls have sums and not all wrenches are kept.
+    pub wall_wrenches: WrenchColumns,
     /// What rests in each tile; only where particles sleep.
     pub resting_tiles: Vec<RestingTile>,
 }
@@ -93,7 +95,8 @@ impl NeighbourLists {
     /// What is computed, with the columns that it is computed in.
     pub fn with<'a>(&'a mut self, columns: &'a mut ContactColumns) -> Computed<'a> {
         let ContactColumns { layout, history, ledger, wrenches, keeps, sums, .. } = columns;
-        let StepColumns { rows, spins, patch, active, kept, resting_tiles, .. } = &mut self.step;
+        let StepColumns { rows, spins, patch, active, kept, wall_wrenches, resting_tiles, .. } =
+            &mut self.step;
         let (layout, slots) = (*layout, &self.slots);
         let slice = TileSlice {
             segments: &slots.segments,
@@ -106,6 +109,7 @@ impl NeighbourLists {
             active,
             kept: kept.slices_mut(),
             each: if *keeps { wrenches.slices_mut() } else { Default::default() },
+            walls: wall_wrenches.slices_mut(),
             ledger,
         };
         Computed { slots, slice, sums: Sums { first: 0, layout, wrenches: sums.slices_mut() }, resting_tiles }
@@ -162,6 +166,8 @@ pub struct TileSlice<'a> {
     pub kept: WrenchSlicesMut<'a>,
     /// Wrench of each contact, or none.
     pub each: WrenchSlicesMut<'a>,
+    /// Wrench of each contact with a wall, by row of its contact point, or none.
+    pub walls: WrenchSlicesMut<'a>,
     pub ledger: &'a mut [f64],
 }
 
@@ -191,6 +197,7 @@ impl<'a> TileSlice<'a> {
             active: split_off(&mut self.active, slots / BLOCK),
             kept: self.kept.split_off(to.kept - from.kept, layout),
             each: self.each.split_off(slots, layout),
+            walls: self.walls.split_off(rows, layout),
             ledger: split_off(&mut self.ledger, slots * LEDGER),
         }
     }

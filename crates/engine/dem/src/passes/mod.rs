@@ -19,4 +19,5 @@ pub mod servo;
 pub mod sleep;
 pub mod touching;
 pub mod waking;
+pub mod wall_sums;
 pub mod zones;

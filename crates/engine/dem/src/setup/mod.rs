@@ -9,6 +9,7 @@ pub mod clumps;
 pub mod earlier_contacts;
 mod mount;
 mod servo;
+mod step;
 mod strain;
 mod zone;
 
@@ -22,6 +23,7 @@ pub use laws::simd::number::Precision;
 pub use laws::slowing::fluid::{Drag, DragLaw};
 pub use mount::Mount;
 pub use servo::{Length, Servo, Target};
+pub use step::{Sampling, Step, WallDetail};
 pub use strain::Strain;
 pub use zone::{
     Crossing, CrossingBond, Entry, EntryBonds, EntryClump, Guide, PairHistory, PathSample, Sample, Touch,
@@ -94,6 +96,10 @@ pub struct Setup {
     /// Whether the wrench of each contact is kept when a run is observed: 64 bytes a contact that only
     /// [`crate::Simulation::record_contacts`] and [`crate::Simulation::wall_forces`] want.
     pub record_wrenches: bool,
+    /// Whether the sliding work of contacts that are no longer listed is held until [`crate::Simulation::record_contacts`] takes it; with the ledger.
+    pub record_sliding: bool,
+    /// What is added up of walls over every step, until [`crate::Simulation::take_wall_sums`] takes it.
+    pub wall_sums: WallDetail,
     /// When a run is stopped.
     pub guards: Guards,
 }
@@ -129,36 +135,9 @@ impl Default for Setup {
             sleep: None,
             ledger: false,
             record_wrenches: true,
+            record_sliding: false,
+            wall_sums: WallDetail::Off,
             guards: Guards::default(),
-        }
-    }
-}
-
-/// How the time step is chosen.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Step {
-    /// This share of the critical step [–].
-    Auto(f64),
-    /// This step [s]; refused when above the critical one.
-    Fixed(f64),
-}
-
-/// Which part of a step the force of a contact stands for: contacts begin and end inside a step (docs/theory/time-step.md).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Sampling {
-    /// The part in which both touch, from half a step before the instant to half a step after it; damping is matched to the step.
-    #[default]
-    Averaged,
-    /// The whole step, where both touch at its instant.
-    Sampled,
-}
-
-impl Sampling {
-    /// How far ahead in time contacts are looked for in steps of `dt` [s].
-    pub fn ahead(self, dt: f64) -> f64 {
-        match self {
-            Sampling::Averaged => 0.5 * dt,
-            Sampling::Sampled => 0.0,
         }
     }
 }

@@ -3,15 +3,14 @@
 use super::Simulation;
 use crate::model::Halt;
 use crate::neighbours::poses::pose;
-use crate::observe::record::ContactRecord;
 use crate::observe::snapshot::Snapshot;
 use crate::observe::{guards, record, snapshot, unbalanced};
 use crate::passes::cell::CellReport;
 use crate::passes::clumps::instant::ClumpState;
 use crate::passes::servo::{ServoReport, WallForce};
-use crate::passes::{bonds, cell, earlier_contacts, servo};
+use crate::passes::{bonds, cell, earlier_contacts, servo, wall_sums};
 use crate::setup::{KeptContact, Particle};
-use crate::state::{BondState, Crack, Energy, Held, Sleepers};
+use crate::state::{BondState, ContactRecord, Crack, Energy, Held, Sleepers, WallInterval};
 use geom::Vec3;
 
 impl Simulation {
@@ -71,6 +70,11 @@ impl Simulation {
         guards::is_finite(&self.state)
     }
 
+    /// Where spheres or triangles of a wall are now, by their numbers: centres and centroids [m].
+    pub fn wall_part_positions(&self, wall: usize, parts: impl Iterator<Item = u32>) -> Vec<Vec3> {
+        self.model.walls[wall].part_positions(&pose(&self.model, &self.state, wall, self.time()), parts)
+    }
+
     /// Force on each wall, and where it is.
     ///
     /// # Errors
@@ -78,6 +82,23 @@ impl Simulation {
     pub fn wall_forces(&mut self) -> Result<Vec<WallForce>, Halt> {
         self.ready_to_record()?;
         Ok(servo::wall_forces(&self.model, &self.state, &self.lists))
+    }
+
+    /// What particles have done to walls in all steps since the last call, up to this instant.
+    ///
+    /// # Errors
+    /// When the state is beyond a guard, or nothing is added up ([`crate::Setup::wall_sums`]).
+    pub fn take_wall_sums(&mut self) -> Result<WallInterval, Halt> {
+        self.ready()?;
+        if self.state.wall_sums.none() && !self.model.walls.is_empty() {
+            return Err(Halt::NotKept { time: self.time() });
+        }
+        Ok(wall_sums::take(&self.model, &mut self.state, &self.lists))
+    }
+
+    /// Point of each wall about which its torque is, now [m]: on the axis of its first motion that turns, else its point at the origin at t = 0.
+    pub fn wall_references(&self) -> Vec<Vec3> {
+        wall_sums::references(&self.model, &self.state, &self.lists)
     }
 
     /// What each servo follows and how well it has held that, with the index of its wall; pushes are those of the last step.

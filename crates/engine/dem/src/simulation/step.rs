@@ -9,7 +9,8 @@ use crate::model::{Halt, Model};
 use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
 use crate::passes::{
-    bonds, cell, clumps, drag, earlier_contacts, instant, ledger, local_damping, mount, servo, zones,
+    bonds, cell, clumps, drag, earlier_contacts, instant, ledger, local_damping, mount, servo, wall_sums,
+    zones,
 };
 use crate::setup::KeptContact;
 use crate::state::{Forces, ListStatus, State};
@@ -29,6 +30,7 @@ impl Simulation {
         }
         let found = sweep::forces_and_move(model, state, lists);
         ledger::add_contacts(model, state, lists);
+        wall_sums::add(model, state, lists);
         zones::held_back::add(model, state, lists);
         if let Some(sleepers) = &mut state.sleepers {
             state.ledger.slept += sleepers.end_step(lists.slots.tile);

@@ -21,6 +21,8 @@ pub struct ContactColumns {
     pub work: Vec<f64>,
     /// ∂F_n/∂δ of each contact in the last step, at which its springs were booked [N/m]; empty without the ledger.
     pub stiffness: Vec<f64>,
+    /// 1 for each contact with a wall that touched in the last step; empty where walls have no sums.
+    pub touched: Vec<u8>,
     /// Energies of each contact in the last step, [`LEDGER`] numbers a slot [J]; empty without the ledger.
     pub ledger: Aligned,
     /// Wrench of each contact, where it is kept.
@@ -86,7 +88,7 @@ impl ContactColumns {
         self.know_stiffness();
     }
 
-    /// Frees all but history, work and stiffness.
+    /// Frees all but history, work, stiffness and what touched walls.
     pub fn release(&mut self) {
         (self.sums, self.ledger) = Default::default();
         (self.wrenches, self.keeps) = Default::default();
@@ -143,6 +145,7 @@ pub struct SavedColumns<'a> {
     pub history: Cow<'a, [f64]>,
     work: Cow<'a, [f64]>,
     stiffness: Cow<'a, [f64]>,
+    touched: Cow<'a, [u8]>,
     /// Forces, torques and ledger of each contact, when they are those of this step and kept.
     wrenches: [Cow<'a, [f64]>; 3],
     /// Sums of forces and torques by particle, when they are those of this step and each contact's are not kept.
@@ -153,7 +156,7 @@ impl SavedColumns<'_> {
     /// The columns of an instant. `known`: forces of this instant are; `sleep`: wrenches between sleepers, which are those of the step in
     /// which they fell asleep, last.
     pub fn of(columns: &ContactColumns, known: bool, sleep: bool) -> SavedColumns<'_> {
-        let ContactColumns { history, work, stiffness, ledger, wrenches, keeps, sums, .. } = columns;
+        let ContactColumns { history, work, stiffness, touched, ledger, wrenches, keeps, sums, .. } = columns;
         let none = &[][..];
         let wrenches = match (known || sleep, keeps) {
             (true, true) => [&wrenches.forces[..], &wrenches.torques, ledger],
@@ -165,6 +168,7 @@ impl SavedColumns<'_> {
             history: Cow::Borrowed(history),
             work: Cow::Borrowed(work),
             stiffness: Cow::Borrowed(stiffness),
+            touched: Cow::Borrowed(touched),
             wrenches: wrenches.map(Cow::Borrowed),
             sums: sums.map(Cow::Borrowed),
         }
@@ -179,6 +183,7 @@ impl SavedColumns<'_> {
             history: own(self.history),
             work: own(self.work),
             stiffness: own(self.stiffness),
+            touched: Cow::Owned(self.touched.into_owned()),
             wrenches: self.wrenches.map(own),
             sums: self.sums.map(own),
         }
@@ -194,7 +199,7 @@ impl SavedColumns<'_> {
         self.sums.iter().any(|column| !column.is_empty())
     }
 
-    /// Puts history, work and stiffness into columns of newly made lists; false where they have another number of contacts.
+    /// Puts history, work, stiffness and what touched walls into columns of newly made lists; false where they have another number of contacts.
     pub fn restore_history(&self, columns: &mut ContactColumns) -> bool {
         if self.work.len() == columns.work.len() {
             columns.work.copy_from_slice(&self.work);
@@ -202,6 +207,9 @@ impl SavedColumns<'_> {
         if self.stiffness.len() == columns.stiffness.len() {
             columns.stiffness.copy_from_slice(&self.stiffness);
             columns.know_stiffness();
+        }
+        if self.touched.len() == columns.touched.len() {
+            columns.touched.copy_from_slice(&self.touched);
         }
         copy(&self.history, &mut columns.history)
     }

@@ -7,6 +7,7 @@ pub mod bonds;
 pub mod cell;
 pub mod clump;
 pub mod clumps;
+pub mod contact_record;
 pub mod contacts;
 pub mod energy;
 pub mod kinematics;
@@ -19,6 +20,7 @@ pub mod row_order;
 pub mod servo;
 pub mod sleepers;
 pub mod validity;
+pub mod wall_sums;
 pub mod zone_particle;
 pub mod zones;
 
@@ -26,6 +28,7 @@ pub use bonds::{BondState, Bonds, Crack};
 pub use cell::CellState;
 pub use clump::ClumpMotion;
 pub use clumps::{FREE, RigidClumps};
+pub use contact_record::ContactRecord;
 pub use contacts::{ContactColumns, SavedColumns, WrenchColumns};
 pub use energy::Energy;
 pub use kinematics::Kinematics;
@@ -36,6 +39,7 @@ pub use path::{EARLY, Path, PathEnd};
 pub use returned::{HeldBack, ReturnCounts, Returned};
 pub use servo::{Governor, Held, ServoState};
 pub use sleepers::{SleepMap, SleeperSlices, Sleepers};
+pub use wall_sums::{PartSum, WallInterval, WallSum, WallSums};
 pub use zone_particle::{Direction, ZoneParticle};
 pub use zones::{LOOK_AHEAD, Zones};
 
@@ -76,6 +80,10 @@ pub struct State {
     pub mounts: Vec<MountState>,
     /// Sums of the energy ledger.
     pub ledger: LedgerSums,
+    /// Sums of what particles do to walls.
+    pub wall_sums: WallSums,
+    /// Contacts with sliding work that are no longer listed, until they are recorded.
+    pub ended: Vec<ContactRecord>,
     /// History and wrenches of contacts.
     #[serde(skip)]
     pub contacts: ContactColumns,
@@ -151,6 +159,8 @@ impl State {
             servos: servos(setup),
             mounts: mounts(setup),
             ledger: LedgerSums::default(),
+            wall_sums: WallSums::new(model),
+            ended: Vec::new(),
             contacts: ContactColumns::default(),
             particles,
         })
@@ -174,6 +184,8 @@ impl State {
             servos: self.servos.clone(),
             mounts: self.mounts.clone(),
             ledger: self.ledger,
+            wall_sums: self.wall_sums.clone(),
+            ended: self.ended.clone(),
             contacts: ContactColumns::default(),
         }
     }

@@ -47,6 +47,8 @@ impl State {
             servos: _,
             mounts: _,
             ledger: _,
+            wall_sums: _,
+            ended: _,
             // The lists carry them over (`neighbours/history.rs`).
             contacts: _,
         } = self;

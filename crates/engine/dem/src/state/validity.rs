@@ -45,6 +45,7 @@ impl State {
         whole("strained domain", strained.as_ref().is_none_or(same_cell))?;
         let holds = |s: &ServoState| s.is_finite() && s.held.is_valid();
         whole("servos", servos.len() == begun.servos.len() && servos.iter().all(holds))?;
+        whole("sums of walls", self.wall_sums.is_valid(&begun.wall_sums, self.steps))?;
         whole("walls on springs", mounts.len() == begun.mounts.len())
     }
 

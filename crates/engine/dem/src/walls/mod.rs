@@ -8,6 +8,7 @@
 //! plus v_s − (v_s·n) n, with v_s that of the surface there. So a belt drives along itself and never pushes.
 
 pub(crate) mod beside;
+mod parts;
 pub(crate) mod remembered;
 mod triangles;
 
@@ -145,15 +146,6 @@ impl WallBody {
     /// How much farther than it touches a particle of `radius` [m] is listed with it [m]: which points of a mesh are contacts depends on those nearby.
     pub fn room(&self, radius: f64) -> f64 {
         if self.triangles().is_some() { seams::room(radius, self.reach) } else { 0.0 }
-    }
-
-    /// Number of its spheres or triangles.
-    pub fn parts(&self) -> u32 {
-        match &self.surface {
-            Surface::Spheres { centres, .. } => centres.len() as u32,
-            Surface::Plane(_) => 1,
-            Surface::Triangles(triangles) => triangles.corners.len() as u32,
-        }
     }
 
     /// Wall spheres: centre and radius [m], in the order they were given.

@@ -94,12 +94,13 @@ pub(super) fn belts(scene: &Scene, setup: &Setup) -> String {
 
 /// Keys that call for the energy ledger.
 pub(super) fn ledger(scene: &Scene) -> String {
-    let Output { energy, contacts, .. } = scene.keys.output;
+    let Output { energy, contacts, wear, .. } = scene.keys.output;
     let guard = scene.keys.guards.energy_share().map(|share| format!("guards.energy = {share}"));
     let energy = energy.then(|| "output.energy = true".to_owned());
     // The work of sliding is known to the ledger alone.
     let contacts = contacts.then(|| "output.contacts = true".to_owned());
-    [energy, contacts, guard].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    let wear = wear.then(|| "output.wear = true".to_owned());
+    [energy, contacts, wear, guard].into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
 /// Keys of so many entries.

@@ -110,8 +110,10 @@ table! {
         energy: bool = absent("false"), "", Any, "true";
         /// Write a row for each contact with every frame (topic `/contacts`).
         contacts: bool = absent("false"), "", Any, "true";
-        /// Write the force on each wall with every frame; always on when a wall has a `servo`, where `false` prints a warning.
+        /// Write with every frame what grains do to each wall: the force, and means over all steps since the frame before (topic `/wall_forces`); always on when a wall has a `servo`, where `false` prints a warning.
         wall_forces: Option<bool> = absent("false"), "", Any, "true";
+        /// Write with every frame the load, sliding work and impacts of each wall sphere and triangle over all steps since the frame before (topic `/wall_wear`), and `/wall_forces` with sliding work.
+        wear: bool = absent("false"), "", Any, "true";
         /// Type of the numbers in frames.
         precision: Precision = absent("\"f64\""), "", Any, "\"f32\"";
     }

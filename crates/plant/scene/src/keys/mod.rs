@@ -105,9 +105,10 @@ impl<'de> Deserialize<'de> for SceneKeys {
 }
 
 impl SceneKeys {
-    /// Whether the run keeps the energy ledger. Contacts are written with the work of sliding, which the ledger knows.
+    /// Whether the run keeps the energy ledger. Contacts and wear are written with the work of sliding, which the ledger knows.
     pub fn keeps_ledger(&self) -> bool {
-        self.output.energy || self.output.contacts || self.guards.energy_share().is_some()
+        let Output { energy, contacts, wear, .. } = self.output;
+        energy || contacts || wear || self.guards.energy_share().is_some()
     }
 
     /// Share of the energy exchanged that the time step may make [–]; none without the ledger, and where the guard is off.

@@ -6,7 +6,7 @@ use super::{NO_DENSITY, Plan};
 use crate::error::Result;
 use crate::keys::{Arithmetic, DragLaw, Patches, Sampling};
 use crate::plan::builder::PlanBuilder;
-use dem::setup::{self, Guards, Setup, Step};
+use dem::setup::{self, Guards, Setup, Step, WallDetail};
 use geom::Vec3;
 
 impl PlanBuilder<'_> {
@@ -51,6 +51,13 @@ impl PlanBuilder<'_> {
             sleep: keys.sleep.map(|s| setup::Sleep { speed: s.speed, time: s.time, wake: s.wake }),
             ledger: keys.keeps_ledger(),
             record_wrenches: true,
+            record_sliding: keys.output.contacts,
+            wall_sums: match keys.output.wall_forces {
+                _ if keys.output.wear => WallDetail::Parts,
+                Some(true) => WallDetail::Whole,
+                _ if self.walls.iter().any(|w| w.servo.is_some()) => WallDetail::Whole,
+                _ => WallDetail::Off,
+            },
             guards: self.guards(),
             largest_entry: self.sphere_sizes.map_or(0.0, |s| s.largest),
             smallest_entry: self.sphere_sizes.map_or(0.0, |s| s.smallest),

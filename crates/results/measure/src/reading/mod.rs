@@ -8,8 +8,10 @@ pub mod selection;
 pub mod settled;
 pub(crate) mod table;
 mod wall_record;
+mod wall_wear;
 
 pub use frame::{Contact, Contacts, Crossing, Frame, Partner};
 pub use run::{Ledger, Run, RunMessage, WallSpheres};
 pub use selection::{Selected, Which};
-pub use wall_record::{ForceOnWall, WallForces};
+pub use wall_record::{ForceOnWall, WallForces, WallMeans};
+pub use wall_wear::{PartWear, WallWear};

@@ -5,16 +5,16 @@ use crate::bonds::Crack;
 use crate::periodic::PeriodicBox;
 use crate::reading::frame::{Contacts, Crossing, Frame};
 use crate::settled::Settled;
-use crate::{Bonds, MeasureError, WallForces};
+use crate::{Bonds, MeasureError, WallForces, WallWear};
+use geom::mesh::{TriMesh, area};
 use geom::{Motion, Plane, Shape, Transform, Vec3};
-use record::WallRecord;
 use record::column::{POSITION, RADIUS, WALL};
 use record::metadata::{MATERIALS, OUTLETS, PLACES, SCENE, TIME, WALLS_END};
 use record::topic::{
     BODIES, BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES,
-    WALLS,
+    WALL_WEAR, WALLS,
 };
-use record::{DomainRecord, Ending, RunTimes};
+use record::{DomainRecord, Ending, RunTimes, SurfaceShape, WallRecord};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use stream::{Table, mcap::Event};
@@ -59,6 +59,8 @@ pub enum RunMessage {
     Ledger(Ledger),
     /// The force on each wall at one time.
     WallForces(WallForces),
+    /// What grains did to parts of walls since the message before.
+    WallWear(WallWear),
     /// How far the grains are from rest at one time.
     Settled(Settled),
     /// The periodic domain, where it changes.
@@ -77,6 +79,7 @@ impl RunMessage {
             RunMessage::Contacts(m) => Some((CONTACTS, m.time)),
             RunMessage::Ledger(m) => Some((ENERGY, m.time)),
             RunMessage::WallForces(m) => Some((WALL_FORCES, m.time)),
+            RunMessage::WallWear(m) => Some((WALL_WEAR, m.time)),
             RunMessage::Settled(m) => Some((SETTLING, m.time)),
             RunMessage::Domain(m) => Some((DOMAIN, m.time)),
             RunMessage::Bonds(m) => Some((BONDS, m.time)),
@@ -108,6 +111,8 @@ pub struct Run {
     pub walls: Vec<String>,
     /// Motions of the walls, without those of servos.
     pub motions: Vec<Motion>,
+    /// Triangles of the walls that have some, at t = 0.
+    pub meshes: Vec<Option<TriMesh>>,
     /// By index of a wall: from where its file has a point to where it is at t = 0.
     pub places: BTreeMap<usize, Transform>,
     pub spheres: WallSpheres,
@@ -180,6 +185,7 @@ impl Run {
                 whole.map(RunMessage::Frame)
             }
             CONTACTS => Some(RunMessage::Contacts(Contacts::new(time, &table)?)),
+            WALL_WEAR => Some(RunMessage::WallWear(WallWear::new(time, &table)?)),
             CRACKS => Some(RunMessage::Cracks(Crack::list(time, &table)?)),
             BONDS => Some(RunMessage::Bonds(Bonds::new(time, &table)?)),
             CROSSINGS => Some(RunMessage::Crossings(Crossing::list(time, &table, &self.densities)?)),
@@ -242,21 +248,43 @@ impl Run {
         let walls: Value = serde_json::from_slice(data).unwrap_or_default();
         let name = |(k, w): (usize, &Value)| w["name"].as_str().map_or(k.to_string(), str::to_owned);
         self.walls = walls.as_array().into_iter().flatten().enumerate().map(name).collect();
-        self.motions = WallRecord::read_all(data).unwrap_or_default().into_iter().map(|w| w.motion).collect();
+        let mesh = |surface: Option<SurfaceShape>| match surface {
+            Some(SurfaceShape::Mesh(mesh)) => Some(mesh),
+            Some(SurfaceShape::Plane(_)) | None => None,
+        };
+        let walls = WallRecord::read_all(data).unwrap_or_default();
+        (self.motions, self.meshes) = walls.into_iter().map(|w| (w.motion, mesh(w.surface))).unzip();
     }
 
     /// Where the file of each wall sphere has it, and its radius there [m]: without the motion of the wall so far, and where it was put. What a servo has
     /// moved stays.
     pub fn spheres_of_files(&self) -> Vec<(Vec3, f64)> {
         let WallSpheres { position, radius, wall, time } = &self.spheres;
-        let place = |k: usize| {
-            let (wall, at) = (wall[k] as usize, position[k]);
-            let moved = self.motions.get(wall).filter(|motion| motion.moves());
-            let home = moved.map_or(at, |motion| motion.pose(*time).home(&at));
-            let Some(back) = self.places.get(&wall).map(Transform::inverse) else { return (home, radius[k]) };
-            (back.point(&home), radius[k] * back.factor().unwrap_or(1.0))
-        };
+        let place =
+            |k: usize| self.of_file(wall[k] as usize, self.home(wall[k], *time, &position[k]), radius[k]);
         (0..position.len()).map(place).collect()
+    }
+
+    /// Where a point of a wall was at t = 0 [m], that is at `place` at a `time` [s]; what a servo has moved stays.
+    pub fn home(&self, wall: u64, time: f64, place: &Vec3) -> Vec3 {
+        let moved = self.motions.get(wall as usize).filter(|motion| motion.moves());
+        moved.map_or(*place, |motion| motion.pose(time).home(place))
+    }
+
+    /// Where the file of a wall has a point that is at `home` at t = 0, and how long a length is there [m].
+    fn of_file(&self, wall: usize, home: Vec3, length: f64) -> (Vec3, f64) {
+        let Some(back) = self.places.get(&wall).map(Transform::inverse) else { return (home, length) };
+        (back.point(&home), length * back.factor().unwrap_or(1.0))
+    }
+
+    /// Centroid of each triangle of a wall as its file has it, and the radius of a disk of its area there [m]; none of other walls.
+    pub fn triangles_of_file(&self, wall: usize) -> Vec<(Vec3, f64)> {
+        let triangles = self.meshes.get(wall).into_iter().flatten().flat_map(TriMesh::triangles);
+        let place = |corners: [Vec3; 3]| {
+            let [a, b, c] = corners;
+            self.of_file(wall, (a + b + c) / 3.0, (area(corners) / std::f64::consts::PI).sqrt())
+        };
+        triangles.map(place).collect()
     }
 
     /// Whether a time lies between two [s], these included. What is due at a time is written at the step nearest to it, so half a step more counts.

@@ -1,4 +1,4 @@
-//! The force on each wall at one time, as a run records it (topic `/wall_forces`).
+//! The force on each wall at one time, and means over the steps since the time before, as a run records them (topic `/wall_forces`).
 
 use crate::MeasureError;
 use geom::Vec3;
@@ -15,6 +15,47 @@ pub struct ForceOnWall {
     pub contacts: u64,
     /// How far it has moved since the start [m]; `None` where the run does not tell.
     pub shift: Option<Vec3>,
+    /// What grains did to it since the message before; `None` where the run does not tell.
+    pub means: Option<WallMeans>,
+}
+
+/// What grains did to a wall in an interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallMeans {
+    /// Mean force [N].
+    pub force: Vec3,
+    /// Largest force at an instant [N].
+    pub largest: f64,
+    /// Mean of the sum of normal forces [N].
+    pub normal: f64,
+    /// Mean torque [N·m].
+    pub torque: Vec3,
+    /// Mean power [W].
+    pub power: f64,
+    /// Grains that came to touch it.
+    pub impacts: f64,
+    /// Energy of their approach [J].
+    pub impact_energy: f64,
+    /// Sliding work [J]; NaN without the ledger.
+    pub sliding_work: f64,
+}
+
+impl WallMeans {
+    /// Of a wall in a message that has them.
+    fn read(wall: &Value) -> Option<WallMeans> {
+        let number = |key: &str| wall[key].as_f64().filter(|x| x.is_finite());
+        let energy = |k: usize| wall["impact_energy"][k].as_f64().filter(|x| x.is_finite());
+        Some(WallMeans {
+            force: vector(&wall["mean_force"])?,
+            largest: number("largest_force")?,
+            normal: number("mean_normal")?,
+            torque: vector(&wall["mean_torque"])?,
+            power: number("mean_power")?,
+            impacts: number("impacts")?,
+            impact_energy: energy(0)? + energy(1)?,
+            sliding_work: number("sliding_work").unwrap_or(f64::NAN),
+        })
+    }
 }
 
 /// The forces on all walls at one time.
@@ -22,6 +63,8 @@ pub struct ForceOnWall {
 pub struct WallForces {
     /// Time [s].
     pub time: f64,
+    /// Time since the message before [s]; `None` where the run has no means.
+    pub interval: Option<f64>,
     /// By index.
     pub walls: Vec<ForceOnWall>,
 }
@@ -40,10 +83,11 @@ impl WallForces {
             let force = force.ok_or_else(|| wrong(format!("wall {k} has no force of three numbers")))?;
             let name = w["name"].as_str().map_or_else(|| k.to_string(), str::to_owned);
             let contacts = w["contacts"].as_u64().unwrap_or(0);
-            Ok(ForceOnWall { name, force, contacts, shift: vector(&w["shift"]) })
+            Ok(ForceOnWall { name, force, contacts, shift: vector(&w["shift"]), means: WallMeans::read(w) })
         };
         let walls = rows.iter().enumerate().map(row).collect::<Result<_, _>>()?;
-        Ok(WallForces { time: message["time"].as_f64().unwrap_or(time), walls })
+        let interval = message["interval"].as_f64().filter(|length| length.is_finite() && *length >= 0.0);
+        Ok(WallForces { time: message["time"].as_f64().unwrap_or(time), interval, walls })
     }
 }
 
@@ -67,8 +111,9 @@ mod tests {
             force: Vec3::new(0.0, 1.0, -2.5),
             contacts: 3,
             shift: None,
+            means: None,
         };
-        assert_eq!(good, Ok(WallForces { time: 0.25, walls: vec![lid] }));
+        assert_eq!(good, Ok(WallForces { time: 0.25, interval: None, walls: vec![lid] }));
         for text in [
             "",
             "[]",

@@ -1,95 +1,54 @@
-//! Force of the grains on walls, over time, and the work of sliding on them: sums over the contacts in a shape.
+//! Force of the grains on walls, over time, and the work of sliding on them: of whole walls, or of the contacts in a shape.
 //!
 //! ```text
 //! F_wall = − Σ F_i        N = Σ |F_i·n|        W = Σ w
 //! ```
 //!
-//! with the force F_i on grain i of each contact with a wall, as the run records it, its normal n, and the sliding work w since
-//! the frame before, also that of contacts which have ended since. A run without contacts may hold the same sums for
-//! whole walls (`/wall_forces`): these are taken then, without normal forces and sliding work.
+//! with the force F_i on grain i of each contact with a wall, its normal n, and the sliding work w since the frame before, also that of contacts which
+//! have ended since. A run adds these up for whole walls over every step (`/wall_forces`): these are taken, as means over time. In a part of a wall, and
+//! of runs without these sums, forces are those of contacts at the instants of frames; of whole walls without sums and contacts, those of instants.
 
+use super::filter::WallContactFilter;
 use crate::definition::{ArgumentKind, AskError, Asked, Figure, Frames, Measure, number};
 use crate::observer::Observer;
 use crate::run::SLACK;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::statistics::Mean;
-use crate::{Contact, Contacts, ForceOnWall, MeasureError, Partner, Run, RunMessage, WallForces};
-use geom::{Shape, Vec3};
-
-/// Which contacts are looked at.
-#[derive(Debug, Clone)]
-pub struct WallContactFilter {
-    /// Contact points in this shape; `None`: everywhere.
-    pub shape: Option<Shape>,
-    /// Only this wall, by name or by index; `None`: all.
-    pub wall: Option<String>,
-}
-
-impl WallContactFilter {
-    /// The rows that are wanted, with those of contacts that have ended.
-    ///
-    /// # Errors
-    /// A wall that the run does not name.
-    pub fn of<'c>(
-        &'c self,
-        run: &'c Run,
-        contacts: &'c Contacts,
-    ) -> Result<impl Iterator<Item = &'c Contact> + 'c, MeasureError> {
-        let wall = self.wall.as_ref().map(|name| index(&run.walls, name)).transpose()?;
-        let wanted = move |c: &&Contact| match c.partner {
-            Partner::Wall(j) => wall.is_none_or(|wall| wall == j) && self.holds_point(run, &c.point),
-            Partner::Grain(_) => false,
-        };
-        Ok(contacts.rows.iter().filter(wanted))
-    }
-
-    /// The forces on the walls that are wanted.
-    ///
-    /// # Errors
-    /// A wall that the run does not name.
-    fn of_whole<'c>(
-        &self,
-        forces: &'c WallForces,
-    ) -> Result<impl Iterator<Item = &'c ForceOnWall>, MeasureError> {
-        let names: Vec<String> = forces.walls.iter().map(|w| w.name.clone()).collect();
-        let wall = self.wall.as_ref().map(|name| index(&names, name)).transpose()?;
-        let wanted = move |k: usize| wall.is_none_or(|wall| wall == k as u64);
-        Ok(forces.walls.iter().enumerate().filter(move |(k, _)| wanted(*k)).map(|(_, w)| w))
-    }
-
-    fn holds_point(&self, run: &Run, point: &Vec3) -> bool {
-        self.shape.as_ref().is_none_or(|shape| run.holds(shape, point))
-    }
-}
-
-fn index(walls: &[String], name: &str) -> Result<u64, MeasureError> {
-    let by_name = walls.iter().position(|w| w == name).map(|k| k as u64);
-    let by_number = || name.parse().ok().filter(|k: &u64| walls.is_empty() || (*k as usize) < walls.len());
-    let missing = || MeasureError::Name { name: name.to_owned(), has: walls.to_vec() };
-    by_name.or_else(by_number).ok_or_else(missing)
-}
+use crate::{Contacts, MeasureError, Partner, Run, RunMessage, WallForces};
+use geom::Vec3;
 
 /// Where the forces come from: what the run holds first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Source {
     /// Each contact, `/contacts`.
     Contacts,
-    /// Whole walls, `/wall_forces`.
+    /// Whole walls at the instants of frames, `/wall_forces`.
     Walls,
+    /// Whole walls over every step, `/wall_forces`.
+    Means,
 }
 
 /// A run without either.
 const NO_FORCES: MeasureError = MeasureError::Channel {
-    topic: record::topic::CONTACTS,
-    what: "contacts",
-    cure: "set [output] contacts = true, or wall_forces = true for the force on whole walls",
+    topic: record::topic::WALL_FORCES,
+    what: "forces on walls",
+    cure: "set [output] wall_forces = true, or contacts = true for the force in a part of a wall",
 };
+
+/// Columns of what only sums over every step tell.
+const OVER_STEPS: usize = 7;
 
 /// Measures the force on walls.
 pub struct WallForce {
     what: WallContactFilter,
     magnitudes: Vec<f64>,
+    /// Of frames; with means over time, of these times their lengths.
     sum: Vec3,
+    /// Time that means are of [s].
+    length: f64,
+    largest: f64,
+    /// Whether each row so far came with its work.
+    slides: bool,
     work: f64,
     touched: bool,
     source: Option<Source>,
@@ -105,6 +64,9 @@ impl WallForce {
             what,
             magnitudes: Vec::new(),
             sum: Vec3::zeros(),
+            length: 0.0,
+            largest: 0.0,
+            slides: true,
             work: 0.0,
             touched: false,
             source: None,
@@ -128,9 +90,8 @@ impl WallForce {
         self.work += work;
         self.add(force);
         let (count, size) = (count as f64, force.norm());
-        let unknown = f64::NAN;
         let sums = [contacts.time, count, force.x, force.y, force.z, size, normal, work, self.work];
-        Ok([&sums[..], &[unknown; 3]].concat())
+        Ok([&sums[..], &[f64::NAN; 3], &[f64::NAN; OVER_STEPS]].concat())
     }
 
     fn of_walls(&mut self, forces: &WallForces) -> Result<Row, MeasureError> {
@@ -147,7 +108,56 @@ impl WallForce {
         let unknown = f64::NAN;
         let (count, size) = (count as f64, force.norm());
         let sums = [forces.time, count, force.x, force.y, force.z, size, unknown, unknown, unknown];
-        Ok([&sums[..], &self.shift(forces)?[..]].concat())
+        Ok([&sums[..], &self.shift(forces)?[..], &[unknown; OVER_STEPS]].concat())
+    }
+
+    /// Means over the steps of an interval; of the first frame, which has none, the forces of its instant.
+    fn of_means(&mut self, forces: &WallForces, length: f64) -> Result<Row, MeasureError> {
+        let (mut count, mut force, mut sums, mut walls) = (0, Vec3::zeros(), [0.0; 5], 0u32);
+        let (mut largest, mut torque) = (f64::NAN, [f64::NAN; 3]);
+        for wall in self.what.of_whole(forces)? {
+            count += wall.contacts;
+            walls += 1;
+            let Some(means) = wall.means else {
+                force += wall.force;
+                continue;
+            };
+            self.touched |= means.largest > 0.0;
+            force += means.force;
+            largest = means.largest.max(largest);
+            torque = means.torque.into();
+            let of = [means.normal, means.sliding_work, means.power, means.impacts, means.impact_energy];
+            sums.iter_mut().zip(of).for_each(|(sum, more)| *sum += more);
+        }
+        let [normal, work, power, impacts, energy] = sums;
+        let known = length > 0.0;
+        if known {
+            self.sum += force * length;
+            self.length += length;
+            self.largest = self.largest.max(largest);
+            self.magnitudes.push(force.norm());
+            self.work += work;
+            self.slides &= !work.is_nan();
+        }
+        let over = |x: f64| if known { x } else { f64::NAN };
+        // Reference points of several walls are apart.
+        let torque = torque.map(|x| if walls == 1 { x } else { f64::NAN });
+        let head = [forces.time, count as f64, force.x, force.y, force.z, force.norm()];
+        let worked = if known { self.work } else { 0.0 };
+        let work = [over(normal), over(work), worked];
+        let rest = [largest, torque[0], torque[1], torque[2], over(power), over(impacts), over(energy)];
+        Ok([&head[..], &work, &self.shift(forces)?[..], &rest].concat())
+    }
+
+    /// Whether means over every step are taken from a message: of whole walls, from the first frame on.
+    fn takes_means(&mut self, forces: &WallForces, rows: &[Row]) -> bool {
+        let begins = self.source.is_none_or(|source| source == Source::Contacts && rows.is_empty());
+        if forces.interval.is_some() && self.what.shape.is_none() && begins {
+            // Of one frame, contacts come first.
+            let what = self.what.clone();
+            *self = WallForce { source: Some(Source::Means), ..WallForce::new(what) };
+        }
+        self.source == Some(Source::Means)
     }
 
     /// How far the wall has moved [m]; unknown where several are asked for.
@@ -160,6 +170,7 @@ impl WallForce {
     fn add(&mut self, force: Vec3) {
         self.sum += force;
         self.magnitudes.push(force.norm());
+        self.largest = self.largest.max(force.norm());
     }
 }
 
@@ -178,23 +189,34 @@ impl Observer for WallForce {
             ("shift_x", "m"),
             ("shift_y", "m"),
             ("shift_z", "m"),
+            ("largest", "N"),
+            ("tx", "N·m"),
+            ("ty", "N·m"),
+            ("tz", "N·m"),
+            ("power", "W"),
+            ("impacts", "1"),
+            ("impact_energy", "J"),
         ])
     }
 
     fn observe(&mut self, run: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
         match message {
             // Of one frame, contacts come first.
-            RunMessage::Contacts(contacts) if self.source != Some(Source::Walls) => {
+            RunMessage::Contacts(contacts) if matches!(self.source, None | Some(Source::Contacts)) => {
                 self.source = Some(Source::Contacts);
                 rows.extend(self.waiting.take());
                 self.waiting = Some(self.of_contacts(run, &contacts)?);
+            }
+            RunMessage::WallForces(forces) if self.takes_means(&forces, rows) => {
+                let length = forces.interval.unwrap_or(0.0);
+                rows.push(self.of_means(&forces, length)?);
             }
             RunMessage::WallForces(forces) if self.source == Some(Source::Contacts) => {
                 // The time of contacts is in nanoseconds.
                 let same = |row: &Row| row.first().is_some_and(|time| (time - forces.time).abs() <= SLACK);
                 if let Some(mut row) = self.waiting.take_if(|row| same(row)) {
-                    let sums = row.len() - 3;
-                    row[sums..].copy_from_slice(&self.shift(&forces)?);
+                    let shift = row.len() - OVER_STEPS - 3;
+                    row[shift..shift + 3].copy_from_slice(&self.shift(&forces)?);
                     rows.push(row);
                 }
             }
@@ -218,19 +240,29 @@ impl Observer for WallForce {
                 high: high.into(),
             });
         }
-        let mean = self.sum / self.magnitudes.len() as f64;
+        let means = source == Source::Means;
+        let mean = self.sum / if means { self.length } else { self.magnitudes.len() as f64 };
         let sizes = Mean::of(&self.magnitudes);
+        let size = if means { mean.norm() } else { sizes.mean };
         let summary = Summary::default()
             .with("mean_fx", "N", mean.x)
             .with("mean_fy", "N", mean.y)
             .with("mean_fz", "N", mean.z)
-            .with("mean_force", "N", sizes.mean)
+            .with("mean_force", "N", size)
             .with("deviation", "N", sizes.deviation)
-            .with("largest_force", "N", self.magnitudes.iter().copied().fold(0.0, f64::max));
+            .with("largest_force", "N", self.largest);
         let summary = match source {
-            Source::Contacts => summary.with("sliding_work", "J", self.work).note("from recorded contacts"),
+            Source::Contacts => summary
+                .with("sliding_work", "J", self.work)
+                .note("from recorded contacts: forces are those at the instants of frames"),
+            Source::Means if self.slides => {
+                summary.with("sliding_work", "J", self.work).note("sums over every step (/wall_forces)")
+            }
+            Source::Means => summary.note(
+                "sums over every step (/wall_forces), without sliding work: [output] energy = true adds it",
+            ),
             Source::Walls => summary.note(
-                "from forces on whole walls (/wall_forces): they tell no normal forces and no sliding work; \
+                "from forces on whole walls (/wall_forces) at the instants of frames: they tell no normal forces and no sliding work; \
                  [output] contacts = true records these",
             ),
         };
@@ -240,7 +272,7 @@ impl Observer for WallForce {
     fn chart(&self, rows: &[Row]) -> Chart {
         let axes = [("fx", 2), ("fy", 3), ("fz", 4)];
         let chart = Chart::new("Force on walls").columns(("time [s]", 0), "force [N]", &axes, rows);
-        if self.source == Some(Source::Walls) {
+        if self.source == Some(Source::Walls) || !self.slides {
             return chart;
         }
         chart.columns(("time [s]", 0), "sliding work [J]", &[("", 8)], rows)
@@ -249,7 +281,7 @@ impl Observer for WallForce {
 
 impl Measure for WallForce {
     const NAME: &'static str = "wall-force";
-    const HELP: &'static str = "Force on walls, and sliding work, of the contacts in SHAPE over time; all: also of runs that hold forces on whole walls";
+    const HELP: &'static str = "Force on walls, and sliding work, over time: of the contacts in SHAPE; all: of whole walls, over every step";
     const ARGUMENT: ArgumentKind = ArgumentKind::Shape;
     const FRAMES: Frames = Frames::OverTime;
     const OPTIONS: &'static [&'static str] = &["wall"];
@@ -261,18 +293,10 @@ impl Measure for WallForce {
     }
 }
 
-impl WallContactFilter {
-    /// The contacts that were asked for: those in a shape, or all, on one wall, or on all.
-    pub(crate) fn asked_for(asked: &Asked) -> Result<WallContactFilter, AskError> {
-        let given = asked.shape()?;
-        let shape = (given.text != "all").then(|| given.shape.clone());
-        Ok(WallContactFilter { shape, wall: asked.wall.clone() })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Contact;
     use serde_json::json;
 
     fn contact(z: f64, force: f64) -> Contact {

@@ -1,22 +1,41 @@
-//! Where walls are loaded and worn: force and sliding work by wall sphere, or by cell of space.
+//! Where walls are loaded and worn: force and sliding work by wall sphere and triangle, or by cell of space.
 //!
 //! Sliding work W = Σ |F_t · slip| is what Archard's law (1953, J. Appl. Phys. 24, DOI 10.1063/1.1721448) turns into a
-//! worn volume, k W / (μ H). A contact belongs to the wall sphere whose surface is nearest to its point, wherever the
-//! sphere is at that time, or to the cube of space it lies in. A sphere is listed where the file of its wall has it, so that the map of a wall that moves,
-//! or was put elsewhere, is one of its body; the area of a cube is taken as the square of its side,
+//! worn volume, k W / (μ H). A run that adds up over every step what grains do to spheres and triangles says to which they do it (`part_load`); of a run
+//! that has contacts alone, a contact belongs to the wall sphere whose surface is nearest to its point, wherever the
+//! sphere is at that time, or to the cube of space it lies in, at t = 0 if its wall moves. A part is listed where the file of its wall has it, so that the
+//! map of a wall that moves, or was put elsewhere, is one of its body; the area of a cube is taken as the square of its side,
 //! which is that of a flat wall along a face of it.
 
+mod map;
+mod part_load;
+
+use self::part_load::PartLoads;
 use crate::definition::{ArgumentKind, AskError, Asked, Frames, Measure};
 use crate::geometry::cells::cell_of;
 use crate::observer::{NO_CONTACTS, Observer};
-use crate::sheet::{Chart, Head, Panel, Row, Summary};
-use crate::wall_force::WallContactFilter;
-use crate::{Contact, MeasureError, Run, RunMessage};
+use crate::sheet::{Chart, Head, Row, Summary};
+use crate::walls::filter::WallContactFilter;
+use crate::{Contact, MeasureError, PartWear, Partner, Run, RunMessage};
 use geom::{Grid, Vec3};
 use std::collections::BTreeMap;
 
-/// Most squares of a map along an axis.
-const MOST_SQUARES: f64 = 240.0;
+/// A run without contacts and without sums of parts.
+const NO_WEAR: MeasureError = MeasureError::Channel {
+    topic: record::topic::WALL_WEAR,
+    what: "wear of walls",
+    cure: "set [output] wear = true, or contacts = true and give --cell M",
+};
+
+/// A run of contacts whose walls have no spheres.
+const NO_SPHERES: MeasureError = MeasureError::Channel {
+    topic: record::topic::WALLS,
+    what: "wall spheres",
+    cure: "set [output] wear = true for triangles, or give --cell M for a map by cells of space",
+};
+
+/// Where the numbers come from.
+const OF_EVERY_STEP: &str = "sums over every step (/wall_wear)";
 
 /// The load on a part of the wall.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -47,10 +66,14 @@ pub struct Wear {
     cell: Option<f64>,
     by_sphere: BTreeMap<usize, WallLoad>,
     by_cell: BTreeMap<[i64; 3], WallLoad>,
+    /// Sums over every step; `None` while the run has shown none.
+    parts: Option<PartLoads>,
     near: Option<NearSpheres>,
     /// Wall spheres as their files have them, and their radii there [m].
     home: Vec<(Vec3, f64)>,
     frames: u64,
+    /// Messages of sums of parts.
+    part_frames: u64,
     contact_frames: u64,
     elsewhere: u64,
 }
@@ -74,9 +97,11 @@ impl Wear {
             cell,
             by_sphere: BTreeMap::new(),
             by_cell: BTreeMap::new(),
+            parts: None,
             near: None,
             home: Vec::new(),
             frames: 0,
+            part_frames: 0,
             contact_frames: 0,
             elsewhere: 0,
         })
@@ -99,10 +124,14 @@ impl Wear {
         near.min_by(|a, b| gap(a).total_cmp(&gap(b))).map(|k| k as usize)
     }
 
-    fn add(&mut self, run: &Run, contact: &Contact) -> Result<(), MeasureError> {
+    fn add(&mut self, run: &Run, time: f64, contact: &Contact) -> Result<(), MeasureError> {
         let borne = match self.cell {
             Some(cell) => {
-                let key = cell_of(&contact.point, cell)?;
+                let point = match contact.partner {
+                    Partner::Wall(wall) => run.home(wall, time, &contact.point),
+                    Partner::Grain(_) => contact.point,
+                };
+                let key = cell_of(&point, cell)?;
                 self.by_cell.entry(key).or_default()
             }
             None => match self.sphere(run, &contact.point) {
@@ -135,6 +164,8 @@ impl Wear {
             b.work,
             b.work / area,
             mean / area,
+            f64::NAN,
+            f64::NAN,
         ]
     }
 }
@@ -153,6 +184,8 @@ impl Observer for Wear {
             ("sliding_work", "J"),
             ("work_per_area", "J/m²"),
             ("pressure", "Pa"),
+            ("impacts", "1"),
+            ("impact_energy", "J"),
         ])
     }
 
@@ -160,15 +193,28 @@ impl Observer for Wear {
         if self.home.is_empty() {
             self.home = run.spheres_of_files();
         }
-        let RunMessage::Contacts(contacts) = message else { return Ok(()) };
+        let contacts = match message {
+            RunMessage::Contacts(contacts) => contacts,
+            RunMessage::WallWear(wear) if self.cell.is_none() => {
+                let wall = self.what.index(run)?;
+                let wanted = |row: &PartWear| self.what.takes(run, wall, row.part.0, &row.position);
+                self.parts.get_or_insert_default().add(&wear, wanted);
+                self.part_frames += 1;
+                return Ok(());
+            }
+            _ => return Ok(()),
+        };
+        // Of one frame, contacts come first; where sums follow them they are not needed.
+        if self.parts.is_some() {
+            return Ok(());
+        }
         self.contact_frames += 1;
         if self.cell.is_none() && run.spheres.position.is_empty() {
-            let cure = "give --cell M for a map by cells of space";
-            return Err(MeasureError::Channel { topic: record::topic::WALLS, what: "wall spheres", cure });
+            return Ok(());
         }
         self.frames += 1;
         let own: Vec<Contact> = self.what.of(run, &contacts)?.copied().collect();
-        own.iter().try_for_each(|contact| self.add(run, contact))?;
+        own.iter().try_for_each(|contact| self.add(run, contacts.time, contact))?;
         for b in self.by_sphere.values_mut().chain(self.by_cell.values_mut()) {
             b.largest = b.largest.max(b.now);
             b.now = 0.0;
@@ -176,9 +222,17 @@ impl Observer for Wear {
         Ok(())
     }
 
-    fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        if self.contact_frames == 0 {
-            return Err(NO_CONTACTS);
+    fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
+        if let Some(parts) = &self.parts {
+            let wall = self.what.index(run)?;
+            rows.extend(parts.rows(run, &self.home, |own| wall.is_none_or(|wall| wall == own)));
+            return Ok(totals(rows).with("frames", "1", self.part_frames as f64).note(OF_EVERY_STEP));
+        }
+        match (self.contact_frames, self.frames) {
+            (0, _) if self.cell.is_some() => return Err(NO_CONTACTS),
+            (0, _) => return Err(NO_WEAR),
+            (_, 0) => return Err(NO_SPHERES),
+            _ => {}
         }
         let side = self.cell.unwrap_or(f64::NAN);
         let centre = |key: &[i64; 3]| Vec3::from(key.map(|k| (k as f64 + 0.5) * side));
@@ -189,58 +243,32 @@ impl Observer for Wear {
             // What a sphere stands for of a wall is not known here.
             rows.push(self.row(*position, *radius, f64::NAN, &load));
         }
-        let work: f64 = rows.iter().map(|r| r[7]).sum();
-        Ok(Summary::default()
-            .with("places", "1", rows.len() as f64)
-            .with("sliding_work", "J", work)
-            .with("largest_work", "J", rows.iter().map(|r| r[7]).fold(0.0, f64::max))
-            .with("frames", "1", self.frames as f64)
-            .with("contacts_elsewhere", "1", self.elsewhere as f64))
+        Ok(totals(rows).with("frames", "1", self.frames as f64).with(
+            "contacts_elsewhere",
+            "1",
+            self.elsewhere as f64,
+        ))
     }
 
-    /// A map over the two axes along which the wall reaches farthest: sums of cubes of space behind each other, means of
-    /// the wall spheres in squares that hold two or so.
     fn chart(&self, rows: &[Row]) -> Chart {
-        let of = |k: usize| rows.iter().map(move |r| r[k]);
-        let least = |k: usize| of(k).fold(f64::INFINITY, f64::min);
-        let reach = |k: usize| of(k).fold(f64::NEG_INFINITY, f64::max) - least(k);
-        let mut axes = [0, 1, 2];
-        axes.sort_by(|a, b| reach(*b).total_cmp(&reach(*a)));
-        let axes = [axes[0].min(axes[1]), axes[0].max(axes[1])];
-        let mut chart = Chart::new("Wear of walls");
-        let Some(first) = rows.first() else { return chart };
-        let margin = 0.5 * self.cell.unwrap_or(2.0 * first[3]);
-        let wide = axes.map(|k| reach(k) + 2.0 * margin);
-        let fine = wide[0].max(wide[1]) / MOST_SQUARES;
-        let step = self.cell.unwrap_or((2.0 * wide[0] * wide[1] / rows.len() as f64).sqrt()).max(fine);
-        let low = axes.map(|k| least(k) - margin);
-        let count = wide.map(|w| (libm::ceil(w / step - 1e-6) as usize).max(1));
-        let range = [low[0], low[1], low[0] + count[0] as f64 * step, low[1] + count[1] as f64 * step];
-        let [x, y] = axes.map(|k| format!("{} [m]", ["x", "y", "z"][k]));
-        let per = if self.cell.is_some() { "" } else { " of a wall sphere" };
-        for (value, column) in [("sliding work", 7), ("mean normal force", 5)] {
-            let mut cells = vec![vec![(0.0, 0.0); count[0]]; count[1]];
-            for row in rows {
-                let [i, j] = [0, 1].map(|k| (((row[axes[k]] - low[k]) / step) as usize).min(count[k] - 1));
-                let (sum, rows) = &mut cells[j][i];
-                (*sum, *rows) = (*sum + row[column], *rows + 1.0);
-            }
-            let mean = |(sum, rows): (f64, f64)| match self.cell {
-                Some(_) if rows > 0.0 => sum,
-                _ => sum / rows,
-            };
-            let cells = cells.into_iter().map(|row| row.into_iter().map(mean).collect()).collect();
-            let value = format!("{value}{per} [{}]", if column == 7 { "J" } else { "N" });
-            chart.panels.push(Panel::Map { x: x.clone(), y: y.clone(), value, range, cells });
-        }
-        chart
+        map::chart(self.cell, rows)
     }
+}
+
+/// What all rows have together.
+fn totals(rows: &[Row]) -> Summary {
+    let work = || rows.iter().map(|r| r[7]);
+    Summary::default().with("places", "1", rows.len() as f64).with("sliding_work", "J", work().sum()).with(
+        "largest_work",
+        "J",
+        work().fold(0.0, f64::max),
+    )
 }
 
 impl Measure for Wear {
     const NAME: &'static str = "wear";
     const HELP: &'static str =
-        "Map of force and sliding work on walls in SHAPE: by wall sphere, or by --cell";
+        "Map of force and sliding work on walls in SHAPE: by wall sphere and triangle, or by --cell";
     const ARGUMENT: ArgumentKind = ArgumentKind::Shape;
     const FRAMES: Frames = Frames::OverTime;
     const OPTIONS: &'static [&'static str] = &["cell", "wall"];
