@@ -10,6 +10,6 @@ measured=$(awk -v seed="$seed" -v diameter="$diameter" -v grain=0.001 -v missing
 height=${measured% *}; grains=${measured#* }
 until=$(awk -v d="$diameter" 'BEGIN { print 0.04 * d / 0.1 }')
 dem-run "$work/crush.toml" --set "wall.1.plane=0,0,$height,0,0,-1" --set "time.until=$until" --threads 1 -q -o "$work/run.mcap"
-force=$(dem-measure "$work/run.mcap" --wall-force all --wall upper 2> "$work/words" | awk -F, 'NR > 1 && $6 > most { most = $6 } END { print most }')
+force=$(dem-measure "$work/run.mcap" --wall-force all --instants --wall upper 2> "$work/words" | awk -F, 'NR > 1 && $6 > most { most = $6 } END { print most }')
 cracks=$(dem-measure "$work/run.mcap" --cracks 2> "$work/words" | awk 'END { print NR - 1 }')
 awk -v d="$diameter" -v s="$seed" -v n="$grains" -v f="$force" -v c="$cracks" 'BEGIN { printf "%s,%d,%d,%.6g,%.6g,%d\n", d, s, n, f, f / d / d, c }'

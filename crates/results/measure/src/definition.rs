@@ -185,6 +185,8 @@ pub struct Asked<'a> {
     pub wall: Option<String>,
     /// Whether forces on walls are meant.
     pub on_walls: bool,
+    /// Whether forces are those of the instants of frames, not means over the steps between them.
+    pub instants: bool,
 }
 
 impl Asked<'_> {

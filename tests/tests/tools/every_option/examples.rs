@@ -86,6 +86,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-measure bonded.mcap --fragments",
     "dem-measure bonded.mcap --grading --sieves 0.004,0.008,0.02",
     "dem-measure run.mcap --forces --on-walls",
+    "dem-measure run.mcap --wall-force all --instants",
     "dem-measure run.mcap --porosity box:0,0,0,0.05,0.05,0.02",
     "dem-measure run.mcap --wall-force all --wall floor",
     "dem-measure run.mcap --plane-force 0,0,0.005,0,0,1",

@@ -96,6 +96,18 @@ fn means_of_seldom_frames_are_those_of_every_step() {
     for k in [2, 3] {
         assert!((seldom[k] / every_step[k] - 1.0).abs() < 1e-9, "{seldom:?} {every_step:?}");
     }
+    // Of a curve over the way of a wall, forces are those of frames, as recorded contacts tell them.
+    let instants = |sets: &[&str], name: &str| {
+        let curve = [&all[..], &["--instants"]].concat();
+        let all = [sets, &["output.every=0.0125", "time.until=0.045"]].concat();
+        let mean = summary(&all, &curve, name);
+        (mean, column(&measure(&folder, &curve), "fz"))
+    };
+    let of_walls = instants(&["output.wall_forces=true"], "at the instants of frames");
+    let of_contacts = instants(&["output.contacts=true"], "from recorded contacts: forces are");
+    assert!(of_walls.1.len() > 3 && of_walls.1.iter().any(|fz| *fz < 0.0), "{of_walls:?}");
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-9 * push.abs();
+    assert!(of_walls.1.iter().zip(&of_contacts.1).all(near), "{of_walls:?} {of_contacts:?}");
     // The map of the tile is one of its triangle, where its file has it.
     summary(&["output.every=0.025", "output.wear=true"], &all, "sums over every step");
     let wear = measure(&folder, &["--wear", "all", "--wall", "tile"]);

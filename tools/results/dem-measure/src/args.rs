@@ -110,6 +110,9 @@ pub struct Args {
     /// Forces on walls instead of forces between grains [forces]
     #[arg(long, help_heading = "How")]
     pub on_walls: bool,
+    /// Forces at the instants of frames, as curves over the way of a wall need, instead of means over the steps between frames [wall-force]
+    #[arg(long, help_heading = "How")]
+    pub instants: bool,
 
     /// Also draw a plot
     #[arg(long, value_name = "FILE.svg|png")]

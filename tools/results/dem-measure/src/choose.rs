@@ -70,6 +70,7 @@ fn asked<'a>(
         sieves: args.sieves.as_ref().map(|sieves| sieves.0.clone()),
         wall: args.wall.clone(),
         on_walls: args.on_walls,
+        instants: args.instants,
     }
 }
 

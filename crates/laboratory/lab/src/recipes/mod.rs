@@ -265,7 +265,7 @@ fn of_sectors(curve: &Curve) -> Vec<Value> {
 
 /// Forces on one wall, and how far it has moved.
 fn force_on(wall: &str) -> Vec<String> {
-    ["--wall-force", "all", "--wall", wall].map(str::to_owned).to_vec()
+    ["--wall-force", "all", "--instants", "--wall", wall].map(str::to_owned).to_vec()
 }
 
 /// Tables of every test of grains: coordination, and cracks where there are bonds.

@@ -236,7 +236,7 @@ impl Lab {
                 let table = chain.measure(
                     "prepare",
                     &format!("prepared-{wall}.csv"),
-                    &["--wall-force", "all", "--wall", wall],
+                    &["--wall-force", "all", "--instants", "--wall", wall],
                 )?;
                 let last = |column: &str| -> Result<f64> {
                     Ok(table.column(column)?.last().copied().unwrap_or(0.0))

@@ -41,6 +41,8 @@ const OVER_STEPS: usize = 7;
 /// Measures the force on walls.
 pub struct WallForce {
     what: WallContactFilter,
+    /// Whether forces are those of the instants of frames in any case.
+    instants: bool,
     magnitudes: Vec<f64>,
     /// Of frames; with means over time, of these times their lengths.
     sum: Vec3,
@@ -58,10 +60,11 @@ pub struct WallForce {
 }
 
 impl WallForce {
-    pub fn new(what: WallContactFilter) -> WallForce {
+    pub fn new(what: WallContactFilter, instants: bool) -> WallForce {
         let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
         WallForce {
             what,
+            instants,
             magnitudes: Vec::new(),
             sum: Vec3::zeros(),
             length: 0.0,
@@ -152,10 +155,10 @@ impl WallForce {
     /// Whether means over every step are taken from a message: of whole walls, from the first frame on.
     fn takes_means(&mut self, forces: &WallForces, rows: &[Row]) -> bool {
         let begins = self.source.is_none_or(|source| source == Source::Contacts && rows.is_empty());
-        if forces.interval.is_some() && self.what.shape.is_none() && begins {
+        if forces.interval.is_some() && self.what.shape.is_none() && !self.instants && begins {
             // Of one frame, contacts come first.
             let what = self.what.clone();
-            *self = WallForce { source: Some(Source::Means), ..WallForce::new(what) };
+            *self = WallForce { source: Some(Source::Means), ..WallForce::new(what, false) };
         }
         self.source == Some(Source::Means)
     }
@@ -284,12 +287,12 @@ impl Measure for WallForce {
     const HELP: &'static str = "Force on walls, and sliding work, over time: of the contacts in SHAPE; all: of whole walls, over every step";
     const ARGUMENT: ArgumentKind = ArgumentKind::Shape;
     const FRAMES: Frames = Frames::OverTime;
-    const OPTIONS: &'static [&'static str] = &["wall"];
+    const OPTIONS: &'static [&'static str] = &["wall", "instants"];
     const FIGURES: &'static [Figure] =
         &[number("wall-force", "mean_force"), number("peak-wall-force", "largest_force")];
 
     fn observer(asked: &Asked) -> Result<Box<dyn Observer>, AskError> {
-        Ok(Box::new(WallForce::new(WallContactFilter::asked_for(asked)?)))
+        Ok(Box::new(WallForce::new(WallContactFilter::asked_for(asked)?, asked.instants)))
     }
 }
 
@@ -311,7 +314,7 @@ mod tests {
     fn a_servo_run_gives_contacts_in_a_shape_and_shifts_of_the_wall() {
         let shape = Some("box:-1,-1,-0.5,1,1,0.5".parse().unwrap());
         let filter = WallContactFilter { shape, wall: Some("lid".to_owned()) };
-        let (mut measure, mut rows) = (WallForce::new(filter), Vec::new());
+        let (mut measure, mut rows) = (WallForce::new(filter, false), Vec::new());
         let run = Run { walls: vec!["lid".to_owned()], ..Run::default() };
         for (time, exact) in [(0.0, 0.0), (0.009998728, 0.0099987276543)] {
             let contacts =
