@@ -186,7 +186,7 @@ impl<'a> Grain<'a> {
         wall.pose.pose.home(&(self.row.position() - shift))
     }
 
-    /// Puts the point of contact `n`, so far from the centre of the particle; out of reach where it is no contact of its own.
+    /// Puts the point of contact `n`, so far from the centre of the particle; out of reach where it is no separate contact.
     ///
     /// # Safety
     /// Tables are in place, and it has a point.

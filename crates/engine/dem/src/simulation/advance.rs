@@ -57,7 +57,7 @@ impl Simulation {
         last: u64,
         goes_on: &mut dyn FnMut(u64) -> bool,
     ) -> Result<(), Halt> {
-        // Who has particles come in does not know more of them ahead.
+        // Entries are known no farther ahead.
         let enters = !self.state.zones.none();
         let last = if enters { last.min(self.state.steps + LOOK_AHEAD) } else { last };
         loop {

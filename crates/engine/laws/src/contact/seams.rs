@@ -39,7 +39,7 @@ pub struct Nearest {
     pub counts: bool,
 }
 
-/// One of the nearest points, in an order of its own.
+/// One of the nearest points, in a separate order.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct Member {
