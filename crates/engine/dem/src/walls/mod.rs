@@ -201,7 +201,7 @@ impl WallBody {
         self.reach
     }
 
-    /// Numbers of the walls that are one surface with this one, which has a number of its own; none where no other is.
+    /// Numbers of the walls that are one surface with this one, itself among them; none where no other is.
     pub fn surface_of(&self, own: usize) -> Vec<u32> {
         let mut all = self.beside.clone();
         if !all.is_empty() {
