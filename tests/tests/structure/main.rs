@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 /// Layers of the engine's crates, lowest first: a folder uses those before it.
 const LAYERS: [(&str, &[&str]); 3] = [
-    ("laws", &["float", "simd", "space", "effects", "contact"]),
-    ("gpu", &["tables", "compositions", "threads", "lists"]),
+    ("laws", &["float", "simd", "space", "slowing", "effects", "contact"]),
+    ("gpu", &["tables", "compositions", "threads", "moves", "lists", "triangles"]),
     (
         "dem",
         &[

@@ -82,16 +82,17 @@ pub fn run<W: Write>(
             Err(_) if stop() => break Some(Stopping::signal()),
             other => other?,
         }
-        if let Err(halt) = run.step(step, stop, report) {
-            break Some(run.halted(scene, halt)?);
-        }
+        let outcome = run.step(step, stop, report);
         // Many steps at once: what the last of them would have let in is in the checkpoint, too.
-        let before = run.sim.steps().saturating_sub(1);
-        if before > step {
-            match run.let_in_by(before as f64 * run.sim.dt()) {
+        let last_begun = run.sim.last_begun();
+        if last_begun > step {
+            match run.let_in_by(last_begun as f64 * run.sim.dt()) {
                 Err(_) if stop() => break Some(Stopping::signal()),
                 other => other?,
             }
+        }
+        if let Err(halt) = outcome {
+            break Some(run.halted(scene, halt)?);
         }
     };
     run.finish(reason)

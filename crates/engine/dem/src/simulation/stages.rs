@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::model::{Halt, SetupError};
 use crate::passes::zones::{enter, paths, returned};
 use crate::setup::{Crossing, CrossingBond, Entry, Guide, PairHistory, PathSample};
-use crate::state::{ListStatus, Returned, State};
+use crate::state::{Forces, ListStatus, Returned, State};
 
 impl Simulation {
     /// Queues a particle that will enter; due when time() reaches `entry.time`.
@@ -19,6 +19,12 @@ impl Simulation {
     /// Entries due until time() + this [s] must have been given before the next step.
     pub fn look_ahead(&self) -> f64 {
         enter::look_ahead(&self.model)
+    }
+
+    /// The step that is under way where it was stopped, or was made last: its forces are known, or it has moved the particles.
+    pub fn last_begun(&self) -> u64 {
+        let moved = self.state.forces != Forces::Known;
+        self.state.steps.saturating_sub(u64::from(moved))
     }
 
     /// Takes news of a particle on its way in along a recorded path, whose samples must reach beyond time() + [`Simulation::look_ahead`] before

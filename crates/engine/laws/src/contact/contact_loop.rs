@@ -96,7 +96,7 @@ pub fn act<R: Lane, E: Effect, T: Number, const KEEP: bool>(
         found.contact.touching = beyond.gt(R::splat(0.0));
     }
     if KEEP {
-        found.contact.stiffness_last = stiffness_last(&batch.ledger[at * LEDGER..]);
+        found.contact.stiffness_last = in_ledger(&batch.ledger[at * LEDGER..], STIFFNESS);
     }
     let part = if step.ahead > 0.0 { average(step.ahead, &mut found.contact, was_held) } else { None };
     let touching = found.contact.touching;
@@ -110,7 +110,8 @@ pub fn act<R: Lane, E: Effect, T: Number, const KEEP: bool>(
     let force = scatter::<R, E, T>(step, batch, buffer, at, &found, &response);
     let mut ended = false;
     if KEEP {
-        let row = ledger_row::<R, E>(step, &found, &response, force, was_held);
+        let held = if E::REACHES { in_ledger(&batch.ledger[at * LEDGER..], 0) } else { R::splat(0.0) };
+        let row = ledger_row::<R, E>(step, &found, &response, force, (was_held, held));
         ended = R::any(released(&row, touching).gt(R::splat(0.0)));
         R::store_rows(row, &mut batch.ledger[at * LEDGER..]);
     }
@@ -287,12 +288,12 @@ fn scatter<R: Lane, E: Effect, T: Number>(
     force
 }
 
-/// ∂F_n/∂δ of the step before, which its ledger kept [N/m].
+/// A column of the step before, which its ledger kept.
 #[inline(always)]
-fn stiffness_last<R: Lane>(ledger: &[f64]) -> R {
+fn in_ledger<R: Lane>(ledger: &[f64], column: usize) -> R {
     let mut last = [0.0; BLOCK];
     for (k, last) in last.iter_mut().enumerate().take(R::WIDTH) {
-        *last = ledger[k * LEDGER + STIFFNESS];
+        *last = ledger[k * LEDGER + column];
     }
     R::load(&last)
 }
@@ -304,7 +305,7 @@ fn ledger_row<R: Lane, E: Effect>(
     found: &Geometry<R>,
     response: &Response<R>,
     force: V<R>,
-    was_held: R,
+    (was_held, held): (R, R),
 ) -> [R; LEDGER] {
     let (zero, touching) = (R::splat(0.0), found.contact.touching);
     let [a, b, c, d] = response.dissipated;
@@ -327,8 +328,9 @@ fn ledger_row<R: Lane, E: Effect>(
         R::select(touching, response.stiffness, zero),
     ];
     if E::REACHES {
-        // What a contact holds when it breaks is lost.
-        let broken = R::select(was_held.gt(zero), response.elastic, zero);
+        // What a contact holds when it breaks is lost; where its triangle has handed the particle to another, which is put out of reach, what it held last.
+        let near = R::splat(1e3).gt(found.share);
+        let broken = R::select(was_held.gt(zero), R::select(near, response.elastic, held), zero);
         row[LOST] = R::select(touching, row[LOST], broken);
     }
     row

@@ -139,3 +139,13 @@ fn the_same_guard_when_a_grain_begins_to_move() {
     }
     assert!(kinds[0] > 0 && kinds[1] > 0, "{kinds:?}");
 }
+
+/// What a guard takes out of the calculation stays in the lists of a device.
+#[test]
+fn what_a_guard_takes_out_is_refused() {
+    let (mut setup, _) = drawn(0);
+    (setup.guards.cuts, setup.guards.zones) = (1, CameBack::IsRemoved);
+    let mut sim = Simulation::new(setup).expect("sound");
+    let refused = sim.use_device(Box::new(Local::default())).expect_err("it does not compute that");
+    assert_eq!(refused, ["grains that are taken out where they go back through an inlet"]);
+}
