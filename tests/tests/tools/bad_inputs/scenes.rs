@@ -80,7 +80,7 @@ const SCENES: &[Case] = &[
     failed("dem-run s.toml --set contact.0.restitutio=1", &["restitutio", "did you mean 'restitution'?"]),
     failed(
         "dem-run s.toml --set time.dt=0.01",
-        &["s.toml: time.dt: 1.0000e-2 s", "critical step", "sinter (radius", "auto"],
+        &["s.toml with --set time.dt=0.01: time.dt: 1.0000e-2 s", "critical step", "sinter (radius", "auto"],
     ),
     failed("dem-run s.toml --set fill.0.count=0", &["fill.0.count", "0"]),
     failed("dem-run s.toml --set fill.0.count=4000000000", &["fill.0.count = 4000000000", "fifty million"]),
