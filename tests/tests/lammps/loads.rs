@@ -92,7 +92,7 @@ fn contacts_and_forces_on_walls_are_those_of_dem_run() {
     let path = folder.path();
     agree(path, 2e-5);
     let forces = |run: &str| {
-        succeed(path, "dem-measure", &[run, "--wall-force", "all", "-q", "-o", "forces.csv"]);
+        succeed(path, "dem-measure", &[run, "--wall-force", "all", "--instants", "-q", "-o", "forces.csv"]);
         fs::read_to_string(path.join("forces.csv")).unwrap()
     };
     let numbers = |text: String| -> Vec<f64> {
