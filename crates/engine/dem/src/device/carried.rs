@@ -10,7 +10,7 @@ use crate::device::DeviceError;
 use crate::device::tables::Table;
 use crate::device::work::Work;
 use crate::model::Model;
-use crate::state::{Direction, State};
+use crate::state::{Direction, ReturnCounts, State, ZoneParticle};
 use geom::Vec3;
 use gpu::tables::DeviceZoneRow;
 
@@ -135,6 +135,28 @@ impl Course {
     /// Whether the next step has to be made here.
     pub fn is_here(model: &Model, state: &State) -> bool {
         !state.zones.histories.is_empty() && Course::plan(model, state, 1).steps == 0
+    }
+}
+
+/// What steps on a device change of zones, as it was before them.
+pub struct Before {
+    zone_particles: Vec<ZoneParticle>,
+    prescribed: Vec<bool>,
+    lost: ReturnCounts,
+    starting: Vec<u32>,
+}
+
+impl Before {
+    /// Of this state.
+    pub fn of(State { zones, starting, .. }: &State) -> Before {
+        let (zone_particles, prescribed) = (zones.zone_particles.clone(), zones.prescribed.clone());
+        Before { zone_particles, prescribed, lost: zones.lost.clone(), starting: starting.clone() }
+    }
+
+    /// Puts it back.
+    pub fn restore(self, State { zones, starting, .. }: &mut State) {
+        (zones.zone_particles, zones.prescribed) = (self.zone_particles, self.prescribed);
+        (zones.lost, *starting) = (self.lost, self.starting);
     }
 }
 

@@ -43,6 +43,7 @@ impl Fixed {
         if self.sent {
             return Ok(());
         }
+        self.meshes.send(work, model)?;
         let Work { device, t } = work;
         let numbers = self.find_kinds(t, model);
         t.kinds = self.of_kinds.write(*device, &self.kinds)?;
@@ -51,8 +52,6 @@ impl Fixed {
         t.lists.image_kinds = self.images.write(*device, &self.table_of(model, IMAGES))?;
         t.lists.kind_count = self.kinds.len() as u32;
         t.lists.materials = model.setup.materials.len() as u32;
-        self.meshes.send(work, model)?;
-        let Work { device, t: _ } = work;
         self.spheres.resize_with(model.walls.len(), Default::default);
         self.walls.clear();
         for (wall, [spheres, keys]) in model.walls.iter().zip(&mut self.spheres) {

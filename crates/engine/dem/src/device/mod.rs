@@ -22,7 +22,7 @@ mod tables;
 mod tests;
 mod work;
 
-pub(crate) use carried::{Course, next_entry};
+pub(crate) use carried::{Before, Course, next_entry};
 pub use local::Local;
 pub(crate) use refused::refused;
 pub use stepper::DeviceTimes;

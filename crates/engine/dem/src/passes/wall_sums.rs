@@ -12,14 +12,12 @@ use crate::model::{Model, With};
 use crate::neighbours::poses::pose_in_box;
 use crate::neighbours::{NeighbourLists, Segment};
 use crate::passes::touching::position_before;
+use crate::state::contacts::SLIDING;
 use crate::state::{ContactColumns, State, WallInterval, WallSums};
 use geom::Vec3;
 use laws::contact::{LEDGER, WrenchSlices, WrenchSums};
 use laws::simd::BLOCK;
 use laws::space::images::Image;
-
-/// Column of the ledger with what sliding dissipated in a step.
-const SLIDING: usize = 2;
 
 /// After the forces of a step and its move: what they did to walls.
 pub fn add(model: &Model, state: &mut State, lists: &NeighbourLists) {

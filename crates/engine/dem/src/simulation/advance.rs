@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::device::{
-    Course, Device, DeviceError, DeviceTimes, Found, LAUNCHED, Stepper, next_entry, refused,
+    Before, Course, Device, DeviceError, DeviceTimes, Found, LAUNCHED, Stepper, next_entry, refused,
 };
 use crate::forces::sweep;
 use crate::model::{Halt, Model};
@@ -91,7 +91,7 @@ impl Simulation {
         let Simulation { model, state, lists, .. } = self;
         let failed = |time: f64, error: DeviceError| Halt::Device { time, what: error.to_string() };
         let (begun, listing, wall_periods) = (state.steps, state.listing, lists.wall_periods.clone());
-        let zones = (!state.zones.none()).then(|| (state.zones.clone(), state.starting.clone()));
+        let before = (!state.zones.none()).then(|| Before::of(state));
         let outcome = stepper
             .send(model, state, lists)
             .and_then(|()| run(stepper, model, state, lists, last, goes_on))
@@ -100,8 +100,8 @@ impl Simulation {
             // The columns are still those of then.
             stepper.forget();
             (state.steps, state.listing, lists.wall_periods) = (begun, listing, wall_periods);
-            if let Some((zones, starting)) = zones {
-                (state.zones, state.starting) = (zones, starting);
+            if let Some(before) = before {
+                before.restore(state);
             }
             failed(state.time(), error)
         })?;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 /// Column of the ledger with what sliding dissipated in a step.
-const SLIDING: usize = 2;
+pub(crate) const SLIDING: usize = 2;
 
 /// Columns of contacts, one row a slot, and their sums by particle.
 #[derive(Debug, Clone, Default)]
