@@ -57,6 +57,16 @@ fn pile() -> TempDir {
     )
 }
 
+/// Grains that come in beside a plate that shakes, and into it.
+fn beside_a_plate() -> TempDir {
+    boxed(
+        "[[wall]]\nname = \"plate\"\nsolid = \"box:-0.03,0.015,-0.1,0.03,0.03,0.1\"\nmaterial = \"glass\"\n\
+         motion = { vibrate = { amplitude = [0, 0, 1e-4], frequency = 10 } }\n\
+         [[insert]]\nmaterial = \"glass\"\ndiameter = 0.006\nshape = \"box:-0.02,-0.02,0.02,0.02,0.018,0.03\"\n\
+         velocity = [0, 0, -1]\nrate_count = 500\n",
+    )
+}
+
 /// Grains that bounce without loss in steps that are too long.
 fn gains() -> TempDir {
     let folder = boxed(
@@ -75,8 +85,8 @@ fn gains() -> TempDir {
 
 const COARSE: &[&str] =
     &["--set", "time.safety=1", "--set", "time.contacts=sampled", "--set", "output.energy=true"];
-/// Grains that do not bounce back to where others come in.
-const SOFT: &[&str] = &["--set", "contact.0.restitution=0.3"];
+/// Grains that do not bounce back to where others come in, which stop the run where they find no room.
+const SOFT: &[&str] = &["--set", "contact.0.restitution=0.3", "--set", "insert.0.when_blocked=stop"];
 const SPRING: &str = "[[wall]]\nname = \"plate\"\nplane = \"0,0,0,0,0,1\"\nmaterial = \"glass\"\n\
                       spring = { direction = [0, 0, 1], stiffness = 100, mass = 0.05, speed_limit = 0.2 }\n";
 
@@ -132,6 +142,10 @@ fn how(remedy: Remedy) -> How {
         }
         Remedy::InsertUntil => Runs(pile(), SOFT, Keys(&["insert.0.until=0.05"])),
         Remedy::InsertRate => Runs(pile(), SOFT, Keys(&["insert.0.rate_count=100"])),
+        Remedy::WaitOrSkip => Runs(pile(), SOFT, Keys(&["insert.0.when_blocked=wait"])),
+        Remedy::SmallerShape => {
+            Runs(beside_a_plate(), &[], Keys(&["insert.0.shape=\"box:-0.02,-0.02,0.02,0.02,0.014,0.03\""]))
+        }
         Remedy::SpringLimit => Runs(drop_on(SPRING), &[], Keys(&["wall.0.spring.speed_limit=2"])),
         Remedy::SpringMass => Runs(drop_on(SPRING), &[], Keys(&["wall.0.spring.mass=5"])),
         Remedy::ServoDirection => Runs(lid(), &[], Keys(&["wall.1.servo.direction=[0, 0, -1]"])),

@@ -10,12 +10,13 @@ mod left;
 mod lowest;
 mod memory;
 mod path;
+mod room;
 mod together;
 
 use dem::Simulation;
 use dem::setup::*;
 use geom::{Plane, Vec3};
-use grainpipe_tests::setups::{HOOKE, empty, grain, particles, with_friction};
+use grainpipe_tests::setups::{HOOKE, empty, grain, particles, run_until, with_friction};
 use scene::advice::explain_setup_error;
 
 fn zone(x: f64, length: f64) -> Zone {

@@ -58,5 +58,5 @@ pub use simulation::{Checkpoint, ContactBytes, EffectCost, MatchedDamping, Simul
 pub use space::mass;
 pub use space::rotation::spun;
 pub use state::{
-    BondState, ContactRecord, Crack, Energy, Held, HeldBack, PartSum, Returned, WallInterval, WallSum,
+    BondState, ContactRecord, Crack, Energy, Held, HeldBack, NoRoom, PartSum, Returned, WallInterval, WallSum,
 };

@@ -1,7 +1,7 @@
 //! What the thread of a particle does: it sums the wrenches of its contacts, and moves.
 #![expect(unsafe_code, reason = "threads share tables, of which each writes its own rows only")]
 
-use crate::tables::{DeviceTables, DeviceZoneRow, HOLD};
+use crate::tables::{DeviceTables, DeviceZoneRow, HOLD, WATCHED};
 use laws::contact::sums::{Sum, WrenchSums, add, add_opposite};
 use laws::contact::{MoveInputs, Mover, SlotEnd, WrenchSlices};
 use laws::float::Float;
@@ -180,6 +180,29 @@ unsafe fn zone_particle(t: &DeviceTables, step: u32, n: usize) -> Option<usize> 
     }
 }
 
+/// Whether any contact of a particle acts.
+///
+/// # Safety
+/// Tables are in place and hold what they say, and none computes contacts meanwhile.
+#[inline(always)]
+unsafe fn touches(t: &DeviceTables, step: u32, k: usize) -> bool {
+    // SAFETY: by contract.
+    unsafe {
+        let (from, to): (u32, u32) = (*t.contacts.starts.at(k), *t.contacts.starts.at(k + 1));
+        for entry in from..to {
+            let slot = (*t.contacts.entries.at::<SlotEnd>(entry as usize)).slot();
+            if slot >= t.slot_count as usize {
+                t.beyond(step);
+                return false;
+            }
+            if *t.acts.at::<u8>(slot) != 0 {
+                return true;
+            }
+        }
+        false
+    }
+}
+
 /// Puts a particle in a zone where that has it, at the image that is nearest to where it was listed: entry `n` of them, in step `given` of a launch, or that with [`HOLD`].
 ///
 /// # Safety
@@ -215,6 +238,10 @@ pub unsafe fn carried(t: &DeviceTables, given: u32, n: usize) {
         }
         if (Vec3::from(position) - home.vector()).norm_squared().root() > home[3] {
             t.flag(1, 1);
+            t.flag(0, step + 1);
+        }
+        if there.acts == WATCHED && touches(t, step, k) {
+            t.flag(5, 1);
             t.flag(0, step + 1);
         }
     }

@@ -1,7 +1,7 @@
 //! Warnings about particles that went back through planes, against the flow, and about cuts that hold back the stream.
 
-use dem::{HeldBack, Returned};
-use geom::Shown;
+use dem::{HeldBack, NoRoom, Returned};
+use geom::{Shown, counted};
 
 /// Share of the momentum of a stream above which a cut holds it back [–]: where a stream falls freely, undivided or cut, it is 0.02.
 const HOLDS_BACK: f64 = 0.05;
@@ -45,7 +45,28 @@ pub fn warnings(returned: &Returned) -> Vec<String> {
         .iter()
         .enumerate()
         .filter_map(|(i, of)| Some(format!("outlet.{i}: {}", held_back(of)?)));
-    lists.iter().flat_map(warning).chain(held).collect()
+    let inserts = returned.inserts.iter().enumerate().flat_map(|(k, insert)| no_room(k, insert));
+    lists.iter().flat_map(warning).chain(held).chain(inserts).collect()
+}
+
+/// What insertion `k` found no room for.
+fn no_room(k: usize, &NoRoom { waited, waiting, skipped }: &NoRoom) -> Vec<String> {
+    let cure = format!("lower insert.{k}.rate, or move insert.{k}.shape to where nothing lies or piles up");
+    let grains = |count: u64| counted(count as usize, "grain");
+    let mut all = Vec::new();
+    if skipped > 0 {
+        let left_out = grains(skipped);
+        all.push(format!(
+            "insert.{k}: {left_out} found no room and did not come in (when_blocked = \"skip\"): {cure}"
+        ));
+    }
+    if waited > 0 {
+        let (late, came) = (grains(waited), waited - waiting);
+        all.push(format!(
+            "insert.{k}: {late} found no room when due; {came} came in later, {waiting} still wait: {cure}"
+        ));
+    }
+    all
 }
 
 /// How much of its stream an outlet holds back, where that is more than a free stream has.
@@ -75,11 +96,31 @@ mod tests {
             removed: vec![0, 0],
             outlets: vec![0],
             fallen: vec![2],
-            held_back: vec![],
+            ..Returned::default()
         };
         let found = warnings(&returned);
         assert!(found.len() == 2 && found[0].starts_with("inlet.1: 3 grains went back"), "{found:?}");
         assert!(found[1].starts_with("outlet.0: 2 grains were recorded"), "{found:?}");
+        let inserts = vec![
+            NoRoom::default(),
+            NoRoom { waited: 1, waiting: 0, skipped: 0 },
+            NoRoom { waited: 9, waiting: 2, skipped: 3 },
+        ];
+        let found = warnings(&Returned { inserts, ..Returned::default() });
+        assert!(
+            found.len() == 3
+                && found[0].starts_with(
+                    "insert.1: 1 grain found no room when due; 1 came in later, 0 still wait: lower"
+                ),
+            "{found:?}"
+        );
+        assert!(found[1].starts_with("insert.2: 3 grains found no room and did not come in"), "{found:?}");
+        assert!(
+            found[2].contains(
+                "9 grains found no room when due; 7 came in later, 2 still wait: lower insert.2.rate"
+            ),
+            "{found:?}"
+        );
         let held = |impulse| HeldBack { impulse, momentum: 2.0, passed: 30 };
         let returned = Returned { held_back: vec![held(0.05), held(0.25)], ..Returned::default() };
         let found = warnings(&returned);

@@ -204,7 +204,8 @@ impl<W: Write> Run<W> {
         let named =
             |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
         outcome.effects = sim.explain().iter().map(named).collect();
-        outcome.entered = supply.entered;
+        let kept_out = |insert: &dem::NoRoom| insert.waiting + insert.skipped;
+        outcome.entered = supply.entered - outcome.returned.inserts.iter().map(kept_out).sum::<u64>();
         Ok((outcome, writer.finish()?))
     }
 }

@@ -24,7 +24,7 @@ mod scene;
 pub mod text;
 
 pub use advice::SceneSetupError;
-pub use dem::setup::{ZoneMotion, ZoneTest};
+pub use dem::setup::{WhenBlocked, ZoneMotion, ZoneTest};
 pub use error::{Result, SceneError, nearest};
 pub use input::Input;
 pub use plan::{Below, Plan};

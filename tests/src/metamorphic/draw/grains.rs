@@ -196,8 +196,10 @@ impl Draw {
 
     fn insertion(&mut self) {
         let (low, high) = (self.choices.low, self.high());
+        // Above all grains, or where the uppermost of them are.
+        let up = if self.chance(0.4) { -0.006 } else { 0.002 };
         let above =
-            [low[0], low[1], digits(high[2] + 0.002, 9), high[0], high[1], digits(high[2] + 0.014, 9)];
+            [low[0], low[1], digits(high[2] + up, 9), high[0], high[1], digits(high[2] + up + 0.012, 9)];
         let clump = self.choices.clumps && self.chance(0.8);
         let what = if clump { "clump = \"pair\"" } else { "material = \"b\"" };
         self.line(format!("[[insert]]\n{what}\nshape = {{ box = {above:?} }}\nvelocity = [0.0, 0.0, -0.8]"));
@@ -220,6 +222,8 @@ impl Draw {
         self.key(0.3, "from", 0.05 * TIME, 0.2 * TIME);
         self.key(0.3, "until", 0.5 * TIME, 2.0 * TIME);
         self.maybe(0.3, "seed = 5");
+        let when = self.pick(&["wait", "skip"]);
+        self.maybe(0.4, format!("when_blocked = \"{when}\""));
     }
 
     fn bonds(&mut self) {

@@ -136,6 +136,7 @@ repeat = "2 ms"
 times = 2
 mass = 0.01
 seed = 1
+when_blocked = "skip"
 [[insert]]
 material = "sinter"
 shape = "cylinder:0.7,0.7,0.5,0.7,0.7,0.53,0.1"

@@ -10,9 +10,10 @@ use crate::device::DeviceError;
 use crate::device::tables::Table;
 use crate::device::work::Work;
 use crate::model::Model;
+use crate::passes::zones::room;
 use crate::state::{Direction, ReturnCounts, State, ZoneParticle};
 use geom::Vec3;
-use gpu::tables::DeviceZoneRow;
+use gpu::tables::{DeviceZoneRow, WATCHED};
 
 /// Their tables.
 #[derive(Default)]
@@ -63,7 +64,7 @@ impl Course {
                     velocity: of(flow.velocity),
                     acceleration: of(flow.acceleration),
                     spin: of(flow.spin),
-                    acts: 1,
+                    acts: if room::is_looked_at(state, t, time) { WATCHED } else { 1 },
                 };
                 let past = t.zone(zones).plane.signed_distance(&centre) + t.lead;
                 if !(time < t.since || past < 0.0) {
@@ -103,8 +104,15 @@ impl Course {
         self.at.len()
     }
 
-    /// Frees those that `done` steps have freed; the others of these steps have begun to move.
+    /// Frees those that `done` steps have freed; the others of these steps have begun to move. In none of these steps has one met anything that is inserted.
     pub fn done(&self, state: &mut State, done: u64) {
+        for n in 0..if done > 0 { state.zones.zone_particles.len() } else { 0 } {
+            // The steps of the launch have been counted by now.
+            let t = &state.zones.zone_particles[n];
+            if room::is_looked_at(state, t, state.time()) {
+                state.zones.zone_particles[n].clear = true;
+            }
+        }
         let was = std::mem::take(&mut state.starting);
         if done == 0 {
             state.starting = was;
@@ -160,8 +168,14 @@ impl Before {
     }
 }
 
-/// The step at whose begin the next particle comes in.
+/// The step at whose begin the next particle comes in, or what waits for room is looked at.
 pub fn next_entry(state: &State) -> Option<u64> {
+    let again = (!state.zones.waiting.is_empty()).then_some(state.zones.look_again);
+    next_due(state).into_iter().chain(again).min()
+}
+
+/// The step at whose begin the next particle is due.
+fn next_due(state: &State) -> Option<u64> {
     let time = state.zones.pending.front()?.time;
     // Rounded in one direction or the other.
     let mut step = (time / state.dt).max(0.0) as u64;

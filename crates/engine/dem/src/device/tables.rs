@@ -75,7 +75,7 @@ fields! {
     DeviceZoneRow {
         position: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3], spin: [f64; 3], acts: u64,
     }
-    DeviceFlags { stopped: u32, left_margin: u32, too_fast: u32, deep: u32, beyond: u32 }
+    DeviceFlags { stopped: u32, left_margin: u32, too_fast: u32, deep: u32, beyond: u32, met: u32 }
     WallPose { pose: Pose, belt: Pose, has_belt: u64 }
 }
 

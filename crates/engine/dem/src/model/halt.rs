@@ -55,6 +55,39 @@ pub enum Halt {
         /// Allowed share [–].
         limit: f64,
     },
+    /// A particle that is inserted becomes free inside a wall.
+    #[error(
+        "particle {id} comes in by {by} and becomes free at {} inside wall '{wall}': they overlap by {overlap:.3e} m",
+        shown(position)
+    )]
+    FreeInWall {
+        /// When [s].
+        time: f64,
+        /// Which particle.
+        id: u32,
+        /// What it comes in by.
+        by: Entrance,
+        /// Name of the wall.
+        wall: String,
+        /// Where; the centre of a clump [m].
+        position: Vec3,
+        /// By how much [m].
+        overlap: f64,
+    },
+    /// A particle is to be inserted where another one is.
+    #[error("{by} has no room for particle {id} at {}: particle {partner} is there", shown(position))]
+    NoRoom {
+        /// When [s].
+        time: f64,
+        /// Which particle.
+        id: u32,
+        /// What it comes in by.
+        by: Entrance,
+        /// Id of the one that is there.
+        partner: u32,
+        /// Where; the centre of a clump [m].
+        position: Vec3,
+    },
     /// A particle moved too far in one step, or its state is not a number.
     #[error(
         "particle {id} at {} moves {motion:.3e} m in one step, {:.1} % of its radius (limit {:.1} %)",
@@ -251,6 +284,8 @@ impl Halt {
         match self {
             Halt::Overlap { time, .. }
             | Halt::InletOverlap { time, .. }
+            | Halt::FreeInWall { time, .. }
+            | Halt::NoRoom { time, .. }
             | Halt::Motion { time, .. }
             | Halt::NotANumber { time, .. }
             | Halt::Device { time, .. }

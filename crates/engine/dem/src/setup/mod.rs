@@ -27,7 +27,7 @@ pub use step::{Sampling, Step, WallDetail};
 pub use strain::Strain;
 pub use zone::{
     Crossing, CrossingBond, Entry, EntryBonds, EntryClump, Guide, PairHistory, PathSample, Sample, Touch,
-    Zone, ZoneMotion, ZoneTest,
+    WhenBlocked, Zone, ZoneMotion, ZoneTest,
 };
 
 pub use geom::Motion;

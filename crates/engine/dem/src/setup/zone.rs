@@ -22,6 +22,36 @@ pub struct Zone {
     /// What of a particle must be past a plane for it to have passed.
     #[serde(default)]
     pub test: ZoneTest,
+    /// Inlet: what becomes of a particle whose place is taken; `None`, as behind a cut of a plant: it comes in all the same, and keeps its motion whatever it meets.
+    #[serde(default)]
+    pub when_blocked: Option<WhenBlocked>,
+}
+
+/// What becomes of a particle that is inserted where there is no room for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum WhenBlocked {
+    /// It comes in later, at its place, when that is free.
+    #[default]
+    Wait,
+    /// It does not come in, and is counted.
+    Skip,
+    /// The run stops.
+    Stop,
+}
+
+impl WhenBlocked {
+    /// All there are.
+    pub const ALL: [WhenBlocked; 3] = [WhenBlocked::Wait, WhenBlocked::Skip, WhenBlocked::Stop];
+
+    /// Its name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            WhenBlocked::Wait => "wait",
+            WhenBlocked::Skip => "skip",
+            WhenBlocked::Stop => "stop",
+        }
+    }
 }
 
 /// How particles move in a zone, τ [s] after they were at x₀ with the velocity v₀.
@@ -78,7 +108,7 @@ impl ZoneTest {
 impl Zone {
     /// A zone of constant velocity in which centres are tested.
     pub fn new(plane: Plane, length: f64) -> Zone {
-        Zone { plane, length, motion: ZoneMotion::Constant, test: ZoneTest::Centre }
+        Zone { plane, length, motion: ZoneMotion::Constant, test: ZoneTest::Centre, when_blocked: None }
     }
 
     /// What is tested of a sphere lies this far before its centre [m].

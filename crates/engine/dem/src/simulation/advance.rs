@@ -11,6 +11,7 @@ use crate::neighbours::{NeighbourLists, rebuild};
 use crate::observe::guards;
 use crate::passes::instant;
 use crate::passes::touching::position_before;
+use crate::passes::zones::travel;
 use crate::simulation::step::{check_overlap, refresh_lists};
 use crate::state::{Forces, LOOK_AHEAD, ListStatus, State};
 use geom::Vec3;
@@ -114,6 +115,11 @@ impl Simulation {
             let all = 0..lists.slots.segments.len();
             return check_overlap(model, state, lists, &[all], false);
         }
+        let mut freed = Ok(());
+        if flags.met != 0 {
+            find_points_before(model, state, lists);
+            freed = travel::move_zone_particles(model, state, lists);
+        }
         if flags.deep != 0 {
             find_points_before(model, state, lists);
             let all = 0..lists.slots.segments.len();
@@ -122,7 +128,7 @@ impl Simulation {
         if flags.too_fast != 0 {
             guards::check_motion(model, state)?;
         }
-        Ok(())
+        freed
     }
 }
 
@@ -151,14 +157,20 @@ fn run(
             wanted = goes_on(before + done);
             wanted
         })?;
-        state.steps += found.steps;
+        // Where an inserted particle has met something, what the last step does in zones is done here.
+        let here = u64::from(found.flags.met != 0 && !found.held);
+        state.steps += found.steps - here;
         if let Some(course) = &course {
-            course.done(state, found.steps);
+            course.done(state, found.steps - here);
+        }
+        if here > 0 {
+            state.steps += here;
+            state.starting.clear();
         }
         if found.flags.left_margin != 0 {
             state.listing.outdate(ListStatus::MarginLeft);
         }
-        let guarded = found.flags.deep != 0 || found.flags.too_fast != 0;
+        let guarded = found.flags.deep != 0 || found.flags.too_fast != 0 || here > 0;
         if guarded || state.steps >= last || !wanted || Course::is_here(model, state) {
             return Ok(found);
         }

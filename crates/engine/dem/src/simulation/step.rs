@@ -46,12 +46,13 @@ impl Simulation {
         state.steps += 1;
         state.forces = Forces::Due;
         state.bonds.advance(&state.particles, model.dt);
-        zones::travel::move_zone_particles(model, state, lists);
+        let freed = zones::travel::move_zone_particles(model, state, lists);
         zones::cross::find_crossings(model, state, lists);
         check_overlap(model, state, lists, &found.deep, true)?;
         if moved.too_fast {
             guards::check_motion(model, state)?;
         }
+        freed?;
         driven?;
         strained?;
         if guards::checks_energy(model, state) {
@@ -88,7 +89,7 @@ pub(super) fn refresh_lists(
     if state.forces == Forces::Known {
         return Ok(());
     }
-    zones::enter::insert_due(model, state, lists);
+    zones::enter::insert_due(model, state, lists)?;
     bonds::zones::insert_due(model, state);
     bonds::make::make_due(model, state)?;
     bonds::act(model, state);

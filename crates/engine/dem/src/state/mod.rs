@@ -36,7 +36,7 @@ pub use ledger::{DrivenBody, LedgerSums};
 pub use mount::MountState;
 pub use particles::{Particles, SpareColumns};
 pub use path::{EARLY, Path, PathEnd};
-pub use returned::{HeldBack, ReturnCounts, Returned};
+pub use returned::{HeldBack, NoRoom, ReturnCounts, Returned};
 pub use servo::{Governor, Held, ServoState};
 pub use sleepers::{SleepMap, SleeperSlices, Sleepers};
 pub use wall_sums::{PartSum, WallInterval, WallSum, WallSums};

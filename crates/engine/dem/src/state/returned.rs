@@ -25,7 +25,18 @@ pub struct HeldBack {
     pub passed: u64,
 }
 
-/// How many particles went back, and what cuts do to the stream.
+/// What an insertion found no room for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NoRoom {
+    /// How many came in later than they were due, or still wait.
+    pub waited: u64,
+    /// How many of these wait now.
+    pub waiting: u64,
+    /// How many did not come in at all.
+    pub skipped: u64,
+}
+
+/// How many particles went back or found no room, and what cuts do to the stream.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Returned {
     /// For each watched inlet: particles that were behind its calculation plane again.
@@ -38,6 +49,8 @@ pub struct Returned {
     pub fallen: Vec<u64>,
     /// For each outlet: how much it holds back.
     pub held_back: Vec<HeldBack>,
+    /// For each insertion, in the order of the scene: what it found no room for; a clump counts as one.
+    pub inserts: Vec<NoRoom>,
 }
 
 /// Where particles came from.
@@ -61,6 +74,7 @@ impl ReturnCounts {
             outlets: none(outlets),
             fallen: none(outlets),
             held_back: vec![HeldBack::default(); outlets],
+            inserts: vec![NoRoom::default(); setup.inlets.len() - watched],
         };
         let origins = if watched > 0 { vec![Origin::default(); particles] } else { Vec::new() };
         ReturnCounts { origins, any: false, returned }

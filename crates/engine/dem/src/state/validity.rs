@@ -129,15 +129,17 @@ impl Zones {
             Direction::Out(outlet) => (outlet as usize) < outlets,
             Direction::In(inlet) => (inlet as usize) < inlets,
         };
+        let entries = || self.pending.iter().chain(&self.waiting);
         lengths
             && [self.gone.len(), self.prescribed.len()] == [flags; 2]
             && self.flags_are_valid()
             && self.zone_particles.iter().all(|t| travels(&t.direction) && material(t.start.material))
             && self.zone_particles.iter().all(moves_finitely)
-            && self.pending.iter().all(|e| e.time.is_finite() && has_meaning(&e.particle))
+            && entries().all(|e| e.time.is_finite() && has_meaning(&e.particle))
             && self.paths.values().all(|path| path.samples.iter().all(is_sample))
-            && below(self.pending.iter().map(|e| &e.inlet), inlets)
-            && self.pending.iter().all(|e| material(e.particle.material) && has_shape(&e.clump, setup))
+            && below(entries().map(|e| &e.inlet), inlets)
+            && entries().all(|e| material(e.particle.material) && has_shape(&e.clump, setup))
+            && self.look_again < 1 << 62
             && below(self.crossings.iter().map(|c| &c.outlet), outlets)
             && self.crossings.iter().all(|c| material(c.particle.material) && has_shape(&c.clump, setup))
             && self.counts_are_valid(begun, n)
@@ -164,6 +166,8 @@ impl Zones {
         [now.inlets.len(), now.removed.len()] == [watched; 2]
             && [now.outlets.len(), now.fallen.len(), now.held_back.len()]
                 == [then.outlets.len(), then.fallen.len(), then.held_back.len()]
+            && now.inserts.len() == then.inserts.len()
+            && now.inserts.iter().all(|i| few(&[i.waited, i.waiting, i.skipped]))
             && [&now.inlets, &now.removed, &now.outlets, &now.fallen].iter().all(|counts| few(counts))
             && self.lost.origins.len() == origins
             && self.lost.origins.iter().all(|origin| origin.inlet as usize <= watched)

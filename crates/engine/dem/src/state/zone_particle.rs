@@ -30,4 +30,6 @@ pub struct ZoneParticle {
     /// How a sphere had turned by then that may be bonded; orientation of the clump that comes in.
     pub turned: Option<UnitQuaternion<f64>>,
     pub direction: Direction,
+    /// Whether it has been clear of walls since it came in: one that comes in through a wall is carried out of it.
+    pub clear: bool,
 }

@@ -97,9 +97,12 @@ pub struct DeviceZoneRow {
     pub acceleration: [f64; 3],
     /// [rad/s].
     pub spin: [f64; 3],
-    /// 1 where it is still in the zone.
+    /// 1 where it is still in the zone; [`WATCHED`].
     pub acts: u64,
 }
+
+/// Of [`DeviceZoneRow::acts`]: it is in the zone, and free as soon as it meets anything.
+pub const WATCHED: u64 = 2;
 
 /// Particles in zones, and those that begin to move.
 #[derive(Debug, Clone, Copy, Default)]
@@ -145,6 +148,8 @@ pub struct DeviceFlags {
     pub deep: u32,
     /// Whether a number in a table names a row that another does not have: memory is damaged, and the run cannot go on.
     pub beyond: u32,
+    /// Whether what is inserted may have met something on its way.
+    pub met: u32,
 }
 
 /// Tables of a step, and what all threads share.

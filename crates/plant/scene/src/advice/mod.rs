@@ -58,7 +58,12 @@ pub fn explain_fact(halt: &Halt) -> String {
     } else {
         String::new()
     };
-    let k = if let Halt::InletOverlap { by: Entrance::Insert(k), .. } = halt { *k } else { 0 };
+    let k = match halt {
+        Halt::InletOverlap { by: Entrance::Insert(k), .. }
+        | Halt::FreeInWall { by: Entrance::Insert(k), .. }
+        | Halt::NoRoom { by: Entrance::Insert(k), .. } => *k,
+        _ => 0,
+    };
     let remedies: Vec<String> = Remedy::of(halt).iter().map(|remedy| remedy.text(k, &stiff)).collect();
     let all = match remedies.split_last() {
         Some((last, [])) => last.clone(),

@@ -46,6 +46,8 @@ remedies! {
     RemoveReturned: "set guards.zones = \"remove\" to take out grains that came back",
     AllowReturned: "set guards.zones = false where grains get there by another way",
     InsertShape: "move insert.{insert}.shape to where nothing lies or piles up",
+    SmallerShape: "make insert.{insert}.shape smaller, or move it, so that it does not cross the wall",
+    WaitOrSkip: "set insert.{insert}.when_blocked = \"wait\" or \"skip\"",
     InsertUntil: "end it before (insert.{insert}.until)",
     InsertRate: "lower insert.{insert}.rate",
     LookAtStart: "look at its speed, spin and stiffness at the start: one is far too large",
@@ -84,6 +86,8 @@ impl Remedy {
                 all.extend(widest(*share, [RaiseOverlap], []));
                 all
             }
+            Halt::FreeInWall { .. } => vec![SmallerShape],
+            Halt::NoRoom { .. } => vec![WaitOrSkip, InsertRate, InsertShape, InsertUntil],
             Halt::Motion { .. } | Halt::TooFast { .. } => vec![ShortenStep, RaiseMotion],
             Halt::NotANumber { .. } => vec![LookAtStart, ShortenStep],
             Halt::WallNotANumber { .. } => vec![LookAtStiffness, ShortenStep],

@@ -59,7 +59,7 @@ impl ZoneRecord {
         let vector =
             |text: &String| vector(text).ok_or_else(|| wrong("gravity", "wanted: three numbers".to_owned()));
         let gravity = map.get("gravity").map(vector).transpose()?;
-        let zone = Zone { plane, length: number("length")?, motion, test };
+        let zone = Zone { plane, length: number("length")?, motion, test, when_blocked: None };
         let samples = map.contains_key("samples").then(|| number("samples")).transpose()?;
         Ok(ZoneRecord { zone, gravity, plant: map.get("plant").cloned(), samples })
     }

@@ -2,6 +2,7 @@
 
 use super::table::table;
 use super::{Lattice, OneOrRange, ShapeText, ShareOf};
+use dem::setup::WhenBlocked;
 
 /// What an entry says about the grains that it makes.
 #[derive(Debug, Clone, Copy)]
@@ -115,6 +116,8 @@ makes_grains! {
         repeat: Option<f64> = absent("never"), "s", Positive, "5";
         /// With `repeat`: how often it opens in all.
         times: Option<u64> = absent("no limit"), "", AtLeast(1.0), "3";
+        /// Where another grain has the place of one that is due: it comes in at this place later, when that is free; it does not come in; the run stops.
+        when_blocked: WhenBlocked = absent("\"wait\""), "", Any, "\"skip\"";
     }
 }
 

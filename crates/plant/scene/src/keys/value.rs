@@ -5,7 +5,7 @@
 
 use super::table::{Judge, Key, Range, TableShape};
 use crate::error::Result as Checked;
-use dem::setup::{ZoneMotion, ZoneTest};
+use dem::setup::{WhenBlocked, ZoneMotion, ZoneTest};
 use geom::units;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
@@ -205,7 +205,7 @@ macro_rules! word_values {
 
 pub(super) use word_values;
 
-word_values! { ZoneMotion ZoneTest }
+word_values! { WhenBlocked ZoneMotion ZoneTest }
 
 /// Types that serde reads, and what they are called.
 macro_rules! plain_values {

@@ -291,7 +291,13 @@ mod tests {
         let mut writer = Writer::new(Vec::new(), &Provenance::default()).unwrap();
         let one = |value: &str| Map::from([("0".to_owned(), value.to_owned())]);
         let plane = "0,0,0,0,0,-1".parse().unwrap();
-        let zone = Zone { plane, length: 0.03, motion: ZoneMotion::Recorded, test: ZoneTest::Centre };
+        let zone = Zone {
+            plane,
+            length: 0.03,
+            motion: ZoneMotion::Recorded,
+            test: ZoneTest::Centre,
+            when_blocked: None,
+        };
         let zone = ZoneRecord { zone, gravity: None, plant: None, samples: Some(0.1) };
         writer.metadata(metadata::MATERIALS, one(r#"{"name":"m","density":1000.0}"#)).unwrap();
         writer.metadata(metadata::SIZES, Sizes { smallest: 0.01, largest: 0.01 }.to_map()).unwrap();

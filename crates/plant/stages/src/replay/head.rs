@@ -117,6 +117,7 @@ fn zone(name: &str, recorded: &ZoneRecord, what: &Replay, widest: f64) -> Result
         length: what.length.unwrap_or(recorded.zone.length),
         motion: what.motion.unwrap_or(recorded.zone.motion),
         test: recorded.zone.test,
+        when_blocked: None,
     };
     let refuse = |why: String, cure: String| Err(SceneError::file(name, why, cure));
     if zone.motion == ZoneMotion::Recorded {

@@ -157,7 +157,7 @@ fn take_over(model: &Model, state: &mut State, lists: &NeighbourLists, k: usize,
         let direction = Direction::Out(crossing.outlet);
         let (turned, passing_id) = (crossing.turn, crossing.particle.id);
         let particle_in_zone =
-            ZoneParticle { at, since, start, passing_id, centre, lead, turn, turned, direction };
+            ZoneParticle { at, since, start, passing_id, centre, lead, turn, turned, direction, clear: true };
         follow_motion(model, state, &particle_in_zone, state.time());
         state.zones.zone_particles.push(particle_in_zone);
     }

@@ -1,14 +1,15 @@
 //! Entries: checked when they are queued, added to the particles when they are due.
 
 use crate::model::in_range::out_of_range;
-use crate::model::{Allowed, Check, Model, SetupError, Subject};
+use crate::model::{Allowed, Check, Entrance, Halt, Model, SetupError, Subject};
 use crate::neighbours::NeighbourLists;
 use crate::passes::zones::removed;
+use crate::passes::zones::room::Room;
 use crate::setup::bond::join;
 use crate::setup::clumps::members;
-use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, Zone, ZoneMotion};
+use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, WhenBlocked, Zone, ZoneMotion};
 use crate::state::clumps::starts;
-use crate::state::{Direction, Kinematics, LOOK_AHEAD, ListStatus, Path, State, ZoneParticle, Zones};
+use crate::state::{Direction, Kinematics, LOOK_AHEAD, ListStatus, NoRoom, Path, State, ZoneParticle, Zones};
 use geom::Vec3;
 use std::collections::BTreeSet;
 
@@ -111,19 +112,84 @@ pub fn look_ahead(model: &Model) -> f64 {
     model.dt * LOOK_AHEAD as f64
 }
 
-/// Adds entries that are due, and those due soon, to the particles; the lists are those of before.
-pub fn insert_due(model: &Model, state: &mut State, lists: &NeighbourLists) {
-    let now = state.time();
-    if state.zones.pending.front().is_none_or(|e| e.time > now) {
-        return;
+/// Entries that wait for room in one insertion, and of which the places are looked at: the time of a look does not grow with their number.
+const LOOKED_AT: usize = 256;
+
+/// Adds entries that are due, and those due soon, to the particles, as far as there is room for what is inserted; the lists are those of before.
+///
+/// # Errors
+/// There is no room for one, and its insertion is to stop the run.
+pub fn insert_due(model: &Model, state: &mut State, lists: &NeighbourLists) -> Result<(), Halt> {
+    let (now, zones) = (state.time(), &state.zones);
+    let due = zones.pending.front().is_some_and(|e| e.time <= now);
+    if !due && (zones.waiting.is_empty() || state.steps < zones.look_again) {
+        return Ok(());
     }
-    let (horizon, first) = (now + look_ahead(model), state.particles.len());
+    // What was due to be given before the last step, with a step for rounding: when a state is observed, what the next step must know has not been given yet, and
+    // observing changes nothing.
+    let (horizon, first) = (now + look_ahead(model) - 2.0 * model.dt, state.particles.len());
+    let mut coming = std::mem::take(&mut state.zones.waiting);
+    let waited = coming.len();
+    coming.iter_mut().for_each(|e| e.time = now);
     while let Some(e) = state.zones.pending.pop_front_if(|e| e.time <= horizon) {
-        add(model, state, &e, now);
+        coming.push_back(e);
     }
-    forget_clusters(state);
-    removed::make_room(model, state, lists, first);
-    state.listing.outdate(ListStatus::Outdated);
+    let room = Room::near(model, state, coming.iter(), horizon - now);
+    let (mut halt, mut looked_at) = (None, vec![0; state.zones.inlets.len()]);
+    for n in 0..coming.len() {
+        let (e, waits) = (coming[n], n < waited);
+        let when_blocked = state.zones.inlets[e.inlet as usize].when_blocked;
+        looked_at[e.inlet as usize] += usize::from(waits);
+        if waits && looked_at[e.inlet as usize] > LOOKED_AT {
+            state.zones.waiting.push_back(e);
+            continue;
+        }
+        let taken_by = when_blocked.and_then(|when| Some((when, room.taken_by(model, state, &e)?)));
+        match taken_by {
+            None => add(model, state, &e, now),
+            Some((WhenBlocked::Wait, _)) => {
+                no_room(model, state, e.inlet).waited += u64::from(!waits);
+                state.zones.waiting.push_back(e);
+            }
+            Some((WhenBlocked::Skip, _)) => {
+                no_room(model, state, e.inlet).skipped += 1;
+                let members = e.clump.map_or(1, |c| members(&c, &model.setup));
+                for k in 0..members {
+                    state.zones.ids.remove(&e.particle.id.wrapping_add(k));
+                }
+            }
+            Some((WhenBlocked::Stop, other)) => {
+                let by = Entrance::of(e.inlet, model.setup.guards.cuts);
+                let (id, position) = (e.particle.id, e.particle.position);
+                halt = Some(Halt::NoRoom { time: now, id, by, partner: state.particles.id[other], position });
+                // Nothing is lost: a run that goes on begins with it.
+                coming.iter().skip(n).rev().for_each(|e| state.zones.pending.push_front(*e));
+                break;
+            }
+        }
+    }
+    state.zones.look_again = state.steps + LOOK_AHEAD;
+    count_waiting(model, state);
+    if state.particles.len() > first {
+        forget_clusters(state);
+        removed::make_room(model, state, lists, first);
+        state.listing.outdate(ListStatus::Outdated);
+    }
+    halt.map_or(Ok(()), Err)
+}
+
+/// What an insertion, which is an inlet, found no room for.
+fn no_room<'a>(model: &Model, state: &'a mut State, inlet: u32) -> &'a mut NoRoom {
+    let cuts = (model.setup.guards.cuts as usize).min(model.setup.inlets.len());
+    &mut state.zones.lost.returned.inserts[inlet as usize - cuts]
+}
+
+/// Counts those that wait.
+fn count_waiting(model: &Model, state: &mut State) {
+    state.zones.lost.returned.inserts.iter_mut().for_each(|insert| insert.waiting = 0);
+    for n in 0..state.zones.waiting.len() {
+        no_room(model, state, state.zones.waiting[n].inlet).waiting += 1;
+    }
 }
 
 /// Forgets the clusters of particles that have left, once these are as many as those that are here: the list does not grow with the stream.
@@ -165,8 +231,19 @@ fn add(model: &Model, state: &mut State, e: &Entry, now: f64) {
         }
         let (direction, turned) = (Direction::In(e.inlet), e.turn.or(e.clump.map(|c| c.orientation)));
         let passing_id = e.particle.id;
-        let particle_in_zone =
-            ZoneParticle { at, since: e.time, start, passing_id, centre, lead, turn, turned, direction };
+        let since = e.time;
+        let particle_in_zone = ZoneParticle {
+            at,
+            since,
+            start,
+            passing_id,
+            centre,
+            lead,
+            turn,
+            turned,
+            direction,
+            clear: false,
+        };
         state.bonds.push(particle_in_zone.has_turned(now, &flow, &state.zones));
         state.zones.zone_particles.push(particle_in_zone);
     }

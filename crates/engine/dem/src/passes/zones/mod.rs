@@ -1,6 +1,6 @@
 //! Zones: particles that move by a prescribed motion, feel nothing, and act on others.
 //!
-//! `enter` inserts what is due, `travel` moves zone particles, `cross` finds crossings of storage planes, `paths` records paths,
+//! `enter` inserts what is due where there is `room` for it, `travel` moves zone particles, `cross` finds crossings of storage planes, `paths` records paths,
 //! `history` carries contact history through a cut, `returned` counts what goes back, `removed` takes it out, `ledger` books the energy, `held_back` what a cut does to the stream.
 
 pub mod cross;
@@ -12,5 +12,6 @@ pub mod ledger;
 pub mod paths;
 pub mod removed;
 pub mod returned;
+pub mod room;
 pub mod travel;
 pub mod whole;

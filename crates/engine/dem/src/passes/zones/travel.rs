@@ -1,10 +1,11 @@
 //! Prescribed motion, in closed form from the state at one time: no drift, and the same bits after a resume.
 
-use crate::model::Model;
+use crate::model::{Entrance, Halt, Model};
 use crate::neighbours::NeighbourLists;
 use crate::passes::touching::position_before;
 use crate::passes::zones::history::restore_history;
 use crate::passes::zones::idle_contacts::held;
+use crate::passes::zones::room::{self, InWall};
 use crate::passes::zones::whole::test_point;
 use crate::setup::Particle;
 use crate::state::bonds::row_of;
@@ -15,9 +16,13 @@ use geom::Vec3;
 use laws::simd::Row4;
 use laws::space::sphere::away;
 
-/// Moves all zone particles, and ends the motion of those that are through their zone.
-pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut NeighbourLists) {
-    let now = state.time();
+/// Moves all zone particles, and ends the motion of those that are through their zone, or are inserted and have met something on their way.
+///
+/// # Errors
+/// One that is inserted becomes free inside a wall. The pass is whole.
+pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> Result<(), Halt> {
+    let (now, met) = (state.time(), room::met(model, state, lists));
+    let mut halt = Ok(());
     let mut zone_particles = std::mem::take(&mut state.zones.zone_particles);
     // All members of a clump follow one path.
     let mut ended = Vec::new();
@@ -47,9 +52,16 @@ pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut Neighbo
                 exclude(model, state, lists, t.at as usize);
                 false
             }
-            (Direction::In(_), None) if now < t.since || past < 0.0 => true,
+            (Direction::In(_), None) if now < t.since || past < 0.0 && !met.contains(&t.passing_id) => true,
             (Direction::In(i), _) => {
                 ended.push(t.passing_id);
+                if let (true, Some(InWall { wall, overlap })) =
+                    (halt.is_ok(), room::in_wall(model, state, lists, t))
+                {
+                    let (id, position, by) = (t.start.id, centre, Entrance::of(i, model.setup.guards.cuts));
+                    let wall = model.setup.walls[wall].name.clone();
+                    halt = Err(Halt::FreeInWall { time: now, id, by, wall, position, overlap });
+                }
                 release(model, state, lists, t, i, centre, &flow);
                 false
             }
@@ -57,6 +69,7 @@ pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut Neighbo
     });
     ended.iter().for_each(|id| drop(state.zones.paths.remove(id)));
     state.zones.zone_particles = zone_particles;
+    halt
 }
 
 /// Moves a zone particle to where it is at a time [s]; the position of its centre then, and how that moves.

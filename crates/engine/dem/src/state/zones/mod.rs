@@ -32,6 +32,10 @@ pub struct Zones {
     /// For each outlet, free particles that have crossed it and go on to its exclusion plane; only where paths are recorded.
     pub(crate) crossed: Vec<BTreeSet<u32>>,
     pub(crate) pending: VecDeque<Entry>,
+    /// Entries that are past their time, because their places were taken.
+    pub(crate) waiting: VecDeque<Entry>,
+    /// Step in which their places are looked at next.
+    pub(crate) look_again: u64,
     pub(crate) crossings: Vec<Crossing>,
     /// For each outlet, particles that may be past its plane, or come back through it, until the next rebuild.
     #[serde(skip)]
@@ -129,7 +133,7 @@ impl Zones {
     /// Whether a particle is to come in, or is on its way in.
     pub(crate) fn is_entering(&self, id: u32, setup: &Setup) -> bool {
         let members = |e: &Entry| e.clump.map_or(1, |c| crate::setup::clumps::members(&c, setup));
-        self.pending.iter().any(|e| id.wrapping_sub(e.particle.id) < members(e))
+        self.pending.iter().chain(&self.waiting).any(|e| id.wrapping_sub(e.particle.id) < members(e))
             || self.zone_particles.iter().any(|t| t.start.id == id && matches!(t.direction, Direction::In(_)))
     }
 
@@ -161,6 +165,8 @@ impl Zones {
             beyond: _,
             crossed: _,
             pending: _,
+            waiting: _,
+            look_again: _,
             crossings: _,
             ids: _,
             paths: _,

@@ -37,7 +37,8 @@ impl Zones {
                 speed * dt / start.radius <= limit
             })
         };
-        let coming = self.pending.iter().take_while(|entry| entry.time <= to);
+        let due = self.pending.iter().take_while(|entry| entry.time <= to);
+        let coming = due.chain(&self.waiting);
         let on_their_way = self.zone_particles.iter().filter(|t| matches!(t.direction, Direction::In(_)));
         self.paths.is_empty()
             && on_their_way

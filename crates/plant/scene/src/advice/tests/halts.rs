@@ -83,6 +83,14 @@ fn halts() -> Vec<Advice<Halt>> {
             },
             &["particle 7", "insert 0", "insert.0.rate", "raise guards.overlap"],
         ),
+        (
+            Halt::FreeInWall { time, id, by: insert, wall: "bin".to_owned(), position, overlap: 0.1 },
+            &["particle 7", "insert 0", "inside wall 'bin'", "insert.0.shape smaller"],
+        ),
+        (
+            Halt::NoRoom { time, id, by: insert, partner: 9, position },
+            &["insert 0 has no room for particle 7", "particle 9", "insert.0.when_blocked = \"wait\""],
+        ),
     ]
 }
 
@@ -105,6 +113,8 @@ fn halt_number(halt: &Halt) -> usize {
         Halt::Bonds { .. } => 13,
         Halt::CellTooSmall { .. } => 14,
         Halt::Device { .. } => 15,
+        Halt::FreeInWall { .. } => 17,
+        Halt::NoRoom { .. } => 18,
     }
 }
 

@@ -1,5 +1,6 @@
 //! `[[insert]]`: zones with a prescribed velocity, and what they insert.
 
+pub(in crate::plan) mod clear;
 pub(in crate::plan) mod feed;
 pub(in crate::plan) mod insertion;
 pub(in crate::plan) mod section;
@@ -11,9 +12,10 @@ use crate::keys::{Insert, OneOrRange};
 use crate::plan::builder::PlanBuilder;
 use crate::plan::grains::grading::Grading;
 use crate::plan::grains::sizes::EntryGrains;
+use crate::plan::insertions::clear::Met;
 use crate::plan::insertions::feed::{Feed, Inserted, InsertedClump};
 use crate::plan::insertions::insertion::Insertion;
-use dem::setup::{ClumpScales, WallShape};
+use dem::setup::{ClumpScales, WallShape, WhenBlocked, Zone};
 use geom::{Shape, Shown, counted_as, sphere::volume};
 use record::Sizes;
 
@@ -29,6 +31,7 @@ impl PlanBuilder<'_> {
             let inserted = self.inserted(i, entry)?;
             let feed = Feed::new(&self.check, self.inlets.len() as u32, i, entry, shape, inserted, first_id)?;
             self.in_front_of_walls(&feed, &format!("insert.{i}.shape"), &entry.shape)?;
+            self.clear_of_walls(&feed, &format!("insert.{i}.shape"), &entry.shape)?;
             let short = feed.falls_short().map(|(key, value, why)| {
                 let later = if entry.until.is_some() { "a later until" } else { "a longer repeat" };
                 let cure = &format!("give a higher rate, or {later}");
@@ -36,13 +39,13 @@ impl PlanBuilder<'_> {
             });
             self.warnings.extend(short);
             first_id = first_id.saturating_add(IDS);
-            self.inlets.push(feed.section.zone());
+            self.inlets.push(Zone { when_blocked: Some(entry.when_blocked), ..feed.section.zone() });
             self.join(i, feed)?;
         }
         Ok(())
     }
 
-    /// Warns of grains that lie in the shape of an insertion which begins with the run: what comes in there would lie on top of them.
+    /// Warns of grains that lie in the shape of an insertion which begins with the run: there is no room for what comes in there.
     fn warn_of_grains_inside(&mut self, i: usize, entry: &Insert, shape: &Shape) {
         if entry.from > 0.0 {
             return;
@@ -50,8 +53,13 @@ impl PlanBuilder<'_> {
         let inside = self.particles.iter().filter(|p| shape.contains(&p.position)).count();
         if inside > 0 {
             let grains = counted_as(inside, "grain", ["lies", "lie"]);
+            let blocked = match entry.when_blocked {
+                WhenBlocked::Wait => "what is inserted waits until its place is free",
+                WhenBlocked::Skip => "what is inserted where they are does not come in",
+                WhenBlocked::Stop => "the run stops where one is inserted onto them",
+            };
             self.warnings.push(format!(
-                "insert.{i}.shape: {grains} in it at the start, and what is inserted would lie on top of them: move the shape, or start later (from)"
+                "insert.{i}.shape: {grains} in it at the start, and {blocked} (when_blocked): move the shape, or start later (from)"
             ));
         }
     }
@@ -99,6 +107,21 @@ impl PlanBuilder<'_> {
         self.will_enter(Sizes { smallest: least * scale.low, largest: most * scale.high }, false);
         self.clumps.entries.push(ClumpScales { shape: index, least: scale.low, most: scale.high });
         Ok(inserted)
+    }
+
+    /// Refuses an insertion whose particles would meet a wall at rest before they have left its shape.
+    fn clear_of_walls(&self, feed: &Feed, key: &str, shape: &str) -> Result<()> {
+        for wall in self.walls.iter().filter(|w| !w.moves()) {
+            let Some(Met { overlap, at_end }) = clear::meets(feed, wall) else { continue };
+            let (name, deep) = (&wall.name, Shown(overlap));
+            let why = match at_end {
+                true => format!("particles would become free inside wall '{name}', by up to {deep} m"),
+                false => format!("particles would meet wall '{name}' before they have left the shape"),
+            };
+            let cure = "make the shape smaller, or move it, so that it does not cross the wall";
+            return Err(self.check.wrong(key, format!("\"{shape}\""), &why, cure));
+        }
+        Ok(())
     }
 
     /// Refuses an insertion whose particles would become free behind a plane at rest.

@@ -31,6 +31,21 @@ impl Section {
         bounds(&self.shape).map_or((0.0, 0.0), |(low, high)| extent(n, &low, &high))
     }
 
+    /// The box of all spheres of a radius [m] on their way through it.
+    pub fn box_around(&self, radius: f64) -> (Vec3, Vec3) {
+        let corner = |n: usize| -> Vec3 {
+            (0..3)
+                .map(|a| self.frame[a] * if n >> a & 1 == 0 { self.ranges[a].0 } else { self.ranges[a].1 })
+                .sum()
+        };
+        let (low, high) = (0..8)
+            .map(corner)
+            .fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |(low, high), p| {
+                (low.inf(&p), high.sup(&p))
+            });
+        (low - Vec3::repeat(radius), high + Vec3::repeat(radius))
+    }
+
     fn middle(&self, n: usize) -> f64 {
         (self.ranges[n].0 + self.ranges[n].1) / 2.0
     }

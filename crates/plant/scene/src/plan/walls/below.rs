@@ -34,7 +34,7 @@ impl PlanBuilder<'_> {
         let largest = 2.0 * self.sizes().map_or(0.0, |s| s.largest).max(self.widest_clump());
         let plane = Plane { point: below.down * (below.depth + largest), normal: below.down };
         let (motion, test) = (ZoneMotion::default(), ZoneTest::default());
-        self.outlets.push(Zone { plane, length: 1.2 * largest, motion, test });
+        self.outlets.push(Zone { plane, length: 1.2 * largest, motion, test, when_blocked: None });
         Ok(())
     }
 

@@ -42,7 +42,7 @@ impl PlanBuilder<'_> {
         let usual = Zone::new(plane, 2.4 * stream.sizes.largest);
         let Zone { length, motion, test, .. } = stream.zone.as_ref().map_or(usual, |recorded| recorded.zone);
         let (length, motion) = (entry.length.0.unwrap_or(length), entry.motion.unwrap_or(motion));
-        Ok(Zone { plane, length, motion, test: entry.test.unwrap_or(test) })
+        Ok(Zone { plane, length, motion, test: entry.test.unwrap_or(test), when_blocked: None })
     }
 
     /// Refuses inlets that no entry of the scene waits for.
@@ -135,7 +135,13 @@ impl PlanBuilder<'_> {
                 let key = format!("outlet.{i}.length");
                 return Err(self.check.wrong(&key, format!("{length} m"), &why, &cure));
             }
-            self.outlets.push(Zone { plane, length, motion: entry.motion, test: entry.test });
+            self.outlets.push(Zone {
+                plane,
+                length,
+                motion: entry.motion,
+                test: entry.test,
+                when_blocked: None,
+            });
         }
         Ok(())
     }
