@@ -12,7 +12,7 @@ compared() {
   awk -F, -v truth="$1" '
     BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], pair, "="); value[pair[1]] = pair[2] }
       print "| parameter | truth | found | error | 90 % interval |\n|---|---|---|---|---|" }
-    NR > 1 { printf "| %s | %s | %.4g | %+.1f %% | %.4g to %.4g |\n", $1, value[$1], $3, 100 * ($3 / value[$1] - 1), $4, $5 }' "$2"
+    !/^#/ && ++row > 1 { printf "| %s | %s | %.4g | %+.1f %% | %.4g to %.4g |\n", $1, value[$1], $3, 100 * ($3 / value[$1] - 1), $4, $5 }' "$2"
 }
 
 # specimens FOLDER FIRST COUNT: curves of specimens FIRST, FIRST + 1 … at each load, and in `data` the options that name them.
@@ -46,7 +46,7 @@ for trials in 12:8 20:12 70:30; do
     calibrate "$recipe" --data "$folder/lab.csv" --seed $((1000 * k)) --jobs "$jobs" --dir "$folder/trials" -q -o "$folder/found.csv"
     rm -rf "$folder/trials"
   done
-  for k in $(seq "$repeats"); do tail -n +2 "$out/repeat-${trials%:*}-$k/found.csv"; done | awk -F, -v truth="$truth" -v trials="${trials%:*}" '
+  for k in $(seq "$repeats"); do grep -v '^#' "$out/repeat-${trials%:*}-$k/found.csv" | tail -n +2; done | awk -F, -v truth="$truth" -v trials="${trials%:*}" '
     BEGIN { n = split(truth, pairs, " "); for (k = 1; k <= n; k++) { split(pairs[k], pair, "="); value[pair[1]] = pair[2]; name[k] = pair[1] }
       if (trials == 12) print "| trials | parameter | repeats | interval holds the truth | error (root mean square) | half width of the interval |\n|---|---|---|---|---|---|" }
     { v = value[$1]; all[$1]++; holds[$1] += $4 <= v && v <= $5; off = $3 / v - 1; squares[$1] += off * off; width[$1] += ($5 - $4) / 2 / v }

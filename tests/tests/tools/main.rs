@@ -18,6 +18,7 @@ mod furnace;
 mod help_examples;
 mod lab_folders;
 mod lab_speed;
+mod lab_states;
 mod lab_test;
 mod layout;
 mod ledger_line;

@@ -1,7 +1,8 @@
 //! Masks of photographs, and the scale of what is made of them.
 
 use crate::every_option::files::inputs;
-use grainpipe_tests::tools::line;
+use grainpipe_tests::tools::{line, tool};
+use grainpipe_tests::tree::root;
 use std::fs;
 use std::path::Path;
 
@@ -143,4 +144,29 @@ fn a_sheet_replaces_no_mask_and_a_broken_photograph_stops_no_other() {
     fs::write(&photograph, whole).unwrap();
     let done = line(folder, "stone-mask photographs -o masks");
     assert!(done.code == 0 && done.stderr.contains("12 masks, 11 of them found before"), "{}", done.stderr);
+}
+
+/// Two masks that belong to other photographs: the warning says what they cost in the unit of the hull that is written, not in that of the poses.
+#[test]
+fn masks_that_disagree_cost_a_volume_of_the_scaled_stone() {
+    let made = tempfile::tempdir().expect("a folder");
+    let (folder, head) = (made.path(), root().join("sample-data/head"));
+    fs::create_dir(folder.join("masks")).expect("made");
+    for entry in fs::read_dir(head.join("masks")).expect("masks") {
+        let path = entry.expect("a mask").path();
+        fs::copy(&path, folder.join("masks").join(path.file_name().expect("a name"))).expect("copied");
+    }
+    for (from, to) in [("00013.png", "00025.png"), ("00049.png", "00039.png")] {
+        fs::copy(folder.join("masks").join(from), folder.join("masks").join(to)).expect("copied");
+    }
+    let [photographs, poses] = ["photographs", "poses.txt"].map(|name| head.join(name).display().to_string());
+    let options = ["--masks", "masks", "--poses", &poses, "--poses-size", "2736x1540", "--length", "0.3"];
+    let more = ["--cells", "30", "-o", "head.ply", "--report", "r.json"];
+    let done = tool(folder, "stone-hull", &[&[&*photographs][..], &options, &more].concat());
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let (_, rest) = done.stderr.split_once("the volume is ").expect("the warning");
+    let said: f64 = rest.split(' ').next().expect("a number").parse().expect("a number");
+    let report: serde_json::Value = serde_json::from_slice(&bytes(folder, "r.json")).expect("a report");
+    let volume = report["volume"].as_f64().expect("a volume");
+    assert!((said / volume - 1.0).abs() < 1e-4, "{said} {volume}");
 }

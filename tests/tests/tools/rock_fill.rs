@@ -87,6 +87,33 @@ fn soil_becomes_a_specimen_of_bonded_stones_and_runs() {
     assert!(bonds > 100, "{bonds}");
 }
 
+/// The lines that `--scene` writes make a scene in which all grains weigh what soil and stones do.
+#[test]
+fn the_lines_of_a_scene_have_the_density_of_the_stones_grains() {
+    let folder = chain();
+    let (path, library) = (folder.path(), root().join("sample-data/stones"));
+    let outputs = ["--scene", "lines.toml", "--report", "r.json", "-o", "packed.ply"];
+    succeed(path, "stone-pack", &pack(library.to_str().unwrap(), &outputs));
+    let lines = fs::read_to_string(path.join("lines.toml")).unwrap();
+    let soil = "[time]\nuntil = 0.01\n[[material]]\nname = \"soil\"\ndensity = 2650\nyoung = 1e6\npoisson = 0.25\n\
+                [[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 0.5\n";
+    let scene = format!("{soil}{lines}young = 1e6\npoisson = 0.25\n");
+    fs::write(path.join("s.toml"), scene).unwrap();
+    succeed(path, "dem-run", &["s.toml", "-q", "-o", "run.mcap"]);
+    succeed(
+        path,
+        "dem-measure",
+        &["run.mcap", "--extent", "--last", "-q", "--report", "e.json", "-o", "e.csv"],
+    );
+    let table = fs::read_to_string(path.join("e.csv")).unwrap();
+    let cells: Vec<f64> = table.lines().nth(1).unwrap().split(',').map(|c| c.parse().unwrap()).collect();
+    let mass = json(path, "r.json")["mass"].as_f64().unwrap();
+    assert!((cells[8] / mass - 1.0).abs() < 1e-5, "{} {mass}", cells[8]);
+    // Without a name of the grains' file, its lines would name none.
+    let nowhere = tool(path, "stone-pack", &pack(library.to_str().unwrap(), &["--scene", "lines.toml"]));
+    assert!(nowhere.code == 2 && nowhere.stderr.contains("give -o FILE.ply"), "{}", nowhere.stderr);
+}
+
 /// A clump weighs what its mesh does, also with few spheres, and turns about the mesh's centre.
 #[test]
 fn a_clump_has_the_mass_of_its_mesh() {

@@ -36,8 +36,16 @@ fn judged(
     let data = data.iter().map(|d| (*d).to_owned()).collect();
     let recipe = recipe::read(&file, &data)?;
     let dir = folder.join("trials");
-    let session =
-        Session { recipe: &recipe, dir, jobs: 2, stop: || false, watch: &Nobody, list: false, candidates };
+    let session = Session {
+        recipe: &recipe,
+        dir,
+        jobs: 2,
+        stop: || false,
+        watch: &Nobody,
+        list: false,
+        candidates,
+        verify: false,
+    };
     match session.run()? {
         Standing::Open(_) => panic!("nothing is listed"),
         Standing::Done { tried, steps } => {

@@ -32,8 +32,16 @@ fn calibrated(folder: &Path) -> (f64, usize, Vec<String>) {
     let _ = fs::remove_file(&count);
     let recipe = recipe::read(&folder.join("r.toml"), &Vec::new()).unwrap();
     let (dir, watch) = (folder.join("trials"), &heard);
-    let session =
-        Session { recipe: &recipe, dir, jobs: 1, stop: || false, watch, list: false, candidates: false };
+    let session = Session {
+        recipe: &recipe,
+        dir,
+        jobs: 1,
+        stop: || false,
+        watch,
+        list: false,
+        candidates: false,
+        verify: false,
+    };
     let Standing::Done { tried, steps } = session.run().unwrap() else { panic!("nothing is listed") };
     let judged = judge(&recipe, &tried, &steps);
     let runs = fs::read_to_string(&count).unwrap_or_default().len();

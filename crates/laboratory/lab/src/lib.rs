@@ -18,7 +18,7 @@ mod running;
 mod specimen;
 
 pub use composing::scenes;
-pub use curves::{series, summary};
+pub use curves::{series, state, summary};
 pub use error::{LabError, Result};
 pub use lab::Lab;
 pub use recipes::{Recipe, Stresses};

@@ -31,6 +31,11 @@ pub enum MeasureError {
     )]
     EndlessShape,
     #[error(
+        "all: everything has a volume only in a domain that is periodic along x, y and z, and this one has no end along {axis}: \
+         give a box, sphere, cylinder, cone, prism or mesh"
+    )]
+    EndlessDomain { axis: &'static str },
+    #[error(
         "no {what} in the shape at any time: the grains are in box:{}: move the shape",
         corners(low, high)
     )]

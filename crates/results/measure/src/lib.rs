@@ -25,8 +25,8 @@ mod walls;
 pub use bonds::{Bond, Bonds};
 pub use bulk::{porosity, profile, segregation};
 pub use error::MeasureError;
-pub use geometry::{ball, cylinder, periodic, region};
-pub use mechanics::{coordination, domain, energy, forces, plane_force, settling, strain, stress};
+pub use geometry::{ball, cylinder, extent, periodic, region};
+pub use mechanics::{coordination, domain, energy, fabric, forces, plane_force, settling, strain, stress};
 pub use observer::{Observer, OfFrame, PerFrame};
 pub use reading::{
     Contact, Contacts, Crossing, ForceOnWall, Frame, Ledger, PartWear, Partner, Run, RunMessage, Selected,

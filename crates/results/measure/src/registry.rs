@@ -49,6 +49,8 @@ pub const ALL: &[Entry] = &[
     entry::<crate::settling::Settling>(),
     entry::<crate::domain::Domain>(),
     entry::<crate::coordination::ContactNumbers>(),
+    entry::<crate::fabric::Fabric>(),
+    entry::<crate::extent::Extent>(),
     entry::<crate::bonds::BondNumbers>(),
     entry::<crate::bonds::CrackList>(),
     entry::<crate::bonds::FragmentList>(),

@@ -29,6 +29,9 @@ pub struct Args {
     /// Judge the trials that are in the folder so far; nothing is run
     #[arg(long, conflicts_with_all = ["jobs", "jobs_file", "run", "guess"])]
     pub so_far: bool,
+    /// Do not simulate the best point of each step at the end: what the emulator says of it stays a promise
+    #[arg(long, conflicts_with_all = ["run", "guess", "so_far"])]
+    pub no_verify: bool,
     /// Write the open runs of the next batch, a command each line, and end
     #[arg(long, value_name = "FILE", conflicts_with_all = ["jobs", "words", "samples", "plot", "page"])]
     pub jobs_file: Option<OutPath>,

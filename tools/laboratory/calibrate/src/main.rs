@@ -39,6 +39,7 @@ fn calibrate(args: Args) -> anyhow::Result<Report> {
         watch: &watch,
         list,
         candidates,
+        verify: !args.no_verify,
     };
     let standing = if args.so_far { session.so_far() } else { session.run() };
     match standing.map_err(refused)? {

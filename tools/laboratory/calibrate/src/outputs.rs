@@ -39,17 +39,25 @@ pub fn publish(
         let picture = draw(Path::new("page.svg"), recipe, judged, steps, tried)?;
         write(&to(file), html(recipe, judged, &String::from_utf8_lossy(&picture)).as_bytes())?;
     }
-    words::warnings(judged).iter().for_each(|w| cli::warn(w));
+    words::headline(judged).iter().chain(&words::warnings(judged)).for_each(|w| cli::warn(w));
     if !cli::quiet() {
         words::sentences(judged).iter().chain(&words::design_sentence(&next)).for_each(|line| cli::say(line));
     }
     let found = judged.findings.iter().filter(|f| f.determined).count();
     let trials: usize = judged.trials.iter().sum();
-    let summary = format!(
-        "found {found} of {}, {}",
-        geom::counted(judged.findings.len(), "parameter"),
-        geom::counted(trials, "trial")
-    );
+    let counted = |n: usize, what: &str| geom::counted(n, what);
+    let summary = match words::headline(judged) {
+        Some(_) => format!(
+            "nothing fits; {}, {}",
+            counted(judged.findings.len(), "parameter"),
+            counted(trials, "trial")
+        ),
+        None => format!(
+            "found {found} of {}, {}",
+            counted(judged.findings.len(), "parameter"),
+            counted(trials, "trial")
+        ),
+    };
     Ok(Report::new(summary).with("seed", recipe.settings.seed).with_all(judged).with("next", next))
 }
 

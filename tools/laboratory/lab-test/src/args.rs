@@ -36,7 +36,7 @@ pub struct Args {
     /// Size of the specimen [m]: x; x,z; or x,y,z (a cylinder: diameter; diameter,height; a heap, a drum: diameter)
     #[arg(long, value_name = "M,…", value_delimiter = ',', value_parser = length, conflicts_with = "grains")]
     pub size: Vec<f64>,
-    /// Grains of each specimen, about [default: 2000]
+    /// Grains of each specimen, about [default: 2000; oedometer: 5000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(50..=10_000_000))]
     pub grains: Option<u64>,
     /// End of the test: strain, displacement over length, or turns of the drum, such as 0.15 or 15%

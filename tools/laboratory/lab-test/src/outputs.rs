@@ -149,16 +149,18 @@ fn write_page(page: &Path, lab: &Lab, first: &Loading, folder: &Path) -> anyhow:
 pub fn report(lab: &Lab, specimens: &Specimens, summary: &Summary) -> Report {
     let tested = curves(specimens).count();
     let (all, test) = (specimens.list.len(), lab.recipe().name());
-    let [x, y] = lab.specimen().sides();
     let report = Report::new(format!("{test}: {tested} of {all} specimens tested"))
         .with("test", test)
         .with("specimens", all)
         .with("stopped", lab.stopped(specimens))
-        .with("size", [x, y, lab.specimen().height])
-        .with("mass", lab.specimen().mass)
         .with("stresses", lab.loadings().iter().map(|l| l.stress).collect::<Vec<_>>())
         .with("seeds", lab.loadings().iter().map(|l| l.seed).collect::<Vec<_>>())
-        .with_all(summary);
+        .with_all(summary)
+        .with("states", specimens.states());
+    let report = match specimens.first_start() {
+        Some(start) => report.with("size", start.size).with("mass", start.mass),
+        None => report,
+    };
     // Of one stress the means stand by themselves, too, where other programs find them.
     let [level] = &summary.levels[..] else { return report };
     level.figures.iter().fold(report, |report, figure| report.with(&figure.name, figure.mean))

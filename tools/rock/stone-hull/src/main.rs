@@ -25,7 +25,7 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
     let found = views::read(&args, &names)?;
     let tags = args.tag_size.map(|size| tags::measured(&args, &found, size)).transpose()?;
     let (mut mesh, samples) = photos::hull(&found.views, args.cells).context("the silhouettes")?;
-    let agreement = words::check(&found, &mesh, args.cells);
+    let carved = mesh.clone();
     let refinement = if args.refine {
         let (finer, refinement) = refined::refined(&args, &found, &mesh)?;
         mesh = finer;
@@ -37,6 +37,7 @@ fn stone_hull(args: Args) -> anyhow::Result<Report> {
     let closed = Stone::new(&mesh, true).context("the hull")?;
     let length = ShapeMeasures::of(&closed).sides[0];
     let factor = tags.map_or(args.length.map_or(1.0, |wanted| wanted / length), |tags| tags.factor);
+    let agreement = words::check(&found, &carved, args.cells, factor);
     mesh.scale(factor);
     let mut out = args.output.open()?;
     let says = [words::comment(args.refine)];

@@ -17,13 +17,13 @@ const MISSED: f64 = 0.03;
 /// Photographs that are named.
 const NAMED: usize = 8;
 
-/// Compares the hull with every mask; names the photographs that do not fit.
-pub fn check(found: &Found, mesh: &TriMesh, cells: usize) -> Vec<Agreement> {
+/// Compares the hull with every mask; names the photographs that do not fit. `scale` is a metre over the unit of the poses.
+pub fn check(found: &Found, mesh: &TriMesh, cells: usize, scale: f64) -> Vec<Agreement> {
     let all: Vec<Agreement> = found.views.par_iter().map(|v| v.agreement(mesh)).collect();
     let mut worst: Vec<usize> = (0..all.len()).filter(|k| all[*k].missed > MISSED).collect();
     let suspects = if worst.is_empty() { Vec::new() } else { suspects(found, mesh) };
     if !suspects.is_empty() {
-        blame(found, mesh, &suspects, cells);
+        blame(found, mesh, &suspects, (cells, scale));
         return all;
     }
     worst.sort_by(|a, b| all[*b].missed.total_cmp(&all[*a].missed));
@@ -64,12 +64,12 @@ fn without(found: &Found, suspects: &[usize]) -> Vec<View> {
 }
 
 /// Names photographs that alone make the others look wrong, and what they cost.
-fn blame(found: &Found, mesh: &TriMesh, suspects: &[usize], cells: usize) {
+fn blame(found: &Found, mesh: &TriMesh, suspects: &[usize], (cells, scale): (usize, f64)) {
     let names: Vec<&str> = suspects.iter().map(|k| found.names[*k].as_str()).collect();
     let shown = names.iter().take(NAMED).copied().collect::<Vec<_>>().join(", ");
     let more = if names.len() > NAMED { format!(" and {} more", names.len() - NAMED) } else { String::new() };
     let without = photos::hull(&without(found, suspects), cells).map_or(String::new(), |(other, _)| {
-        let (with, without) = (mesh.volume(), other.volume());
+        let [with, without] = [mesh, &other].map(|hull| hull.volume() * scale.powi(3));
         let share = percent(with / without - 1.0);
         format!("; the volume is {} m³ with and {} m³ without them ({share} %)", Shown(with), Shown(without))
     });

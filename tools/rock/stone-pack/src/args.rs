@@ -30,7 +30,7 @@ pub struct Args {
     content: f64,
     /// Density of the stones [kg/m³]
     #[arg(long, value_name = "KG/M3", value_parser = geom::number::positive)]
-    stone_density: f64,
+    pub stone_density: f64,
     /// Density of the soil grains [kg/m³] [default: that of the run]
     #[arg(long, value_name = "KG/M3", value_parser = geom::number::positive)]
     pub soil_density: Option<f64>,
@@ -56,7 +56,10 @@ pub struct Args {
     pub lengths: cli::Lengths,
     #[command(flatten)]
     pub placing: cli::Placing,
-    /// Name of the stones' material, for the report and for --rigid [default: rock]
+    /// Write the lines of a scene that reads the grains: [[particles]], and the [[material]] of the stones with the density at which their grains weigh what the stones do (TOML)
+    #[arg(long, value_name = "FILE.toml", conflicts_with = "rigid")]
+    pub scene: Option<OutPath>,
+    /// Name of the stones' material, for the report, for --scene and for --rigid [default: rock]
     #[arg(long, value_name = "NAME", value_parser = record::name::name)]
     material: Option<String>,
     /// Stones are clusters of grains that bonds hold together, and can break (default)
@@ -85,9 +88,13 @@ impl Args {
 
     /// Refuses a name of another format, and an option that would change nothing.
     pub fn check_used(&self) -> anyhow::Result<()> {
-        if self.material.is_some() && self.bodies.is_none() && self.common.report.is_none() {
+        if self.material.is_some()
+            && self.bodies.is_none()
+            && self.scene.is_none()
+            && self.common.report.is_none()
+        {
             return Err(cli::usage(
-                "--material: changes nothing without --rigid or --report: the PLY has numbers of materials: leave it out",
+                "--material: changes nothing without --scene, --rigid or --report: the PLY has numbers of materials: leave it out",
             ));
         }
         for (option, density) in

@@ -3,6 +3,7 @@
 mod args;
 mod bodies;
 mod inputs;
+mod lines;
 mod outputs;
 
 use anyhow::Context;
@@ -46,6 +47,9 @@ fn stone_pack(args: Args) -> anyhow::Result<Report> {
     }
     outputs::write(&args, &grains, &library, &packing)?;
     let grain_density = grain_density(&grains, &packing);
+    if let Some(path) = &args.scene {
+        lines::write(path, &args, &grains, grain_density)?;
+    }
     let summary = summary(&packing, &settings, grain_density);
     let names: Vec<String> =
         grains.materials.iter().map(|m| m.0.clone()).chain([args.material().to_owned()]).collect();

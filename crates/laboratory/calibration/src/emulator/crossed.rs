@@ -1,6 +1,6 @@
 //! How far each trial is from what the others say of it, where there are few.
 
-use super::gp::Gp;
+use super::gp::{Gp, LeftOut};
 use super::likelihood::Scatter;
 use geom::random::{generator, unit};
 use nalgebra::{DMatrix, DVector};
@@ -21,9 +21,9 @@ pub(crate) fn crossed(
     inputs: &DMatrix<f64>,
     y: &DVector<f64>,
     scatter: Scatter,
-) -> Option<Vec<f64>> {
+) -> Option<Vec<LeftOut>> {
     let n = inputs.nrows();
-    let mut off = vec![0.0; n];
+    let mut off = vec![LeftOut { error: 0.0, deviation: 1.0 }; n];
     let least = LEAST * y.variance();
     let order = shuffled(n);
     for fold in 0..FOLDS.min(n) {
@@ -33,7 +33,8 @@ pub(crate) fn crossed(
         let gp = Gp::fit(&some, &some_y, (scatter, None), whole.trend)?;
         for i in (0..n).filter(is_out).map(|at| order[at]) {
             let p = gp.predict(&inputs.row(i).iter().copied().collect::<Vec<_>>());
-            off[i] = (y[i] - p.mean) / (p.variance + gp.noise).max(least).sqrt();
+            let deviation = (p.variance + gp.noise).max(least).sqrt();
+            off[i] = LeftOut { error: y[i] - p.mean, deviation };
         }
     }
     Some(off)
@@ -63,7 +64,7 @@ mod tests {
         let off =
             crossed(&Gp::fit(&x, &y, (Scatter::None, None), Trend::Linear).unwrap(), &x, &y, Scatter::None)
                 .unwrap();
-        assert!(off.iter().all(|o| o.abs() < 1e3) && off[7].abs() > 2.0, "{off:?}");
+        assert!(off.iter().all(|o| o.scaled().abs() < 1e3) && off[7].scaled().abs() > 2.0, "{off:?}");
     }
 
     /// Twelve points of a function of three parameters that bends: how often is it within 1.64 deviations of its emulator, which 90 % should be?
@@ -77,7 +78,7 @@ mod tests {
             let at = |x: &DMatrix<f64>, i: usize| [x[(i, 0)], x[(i, 1)], x[(i, 2)]];
             let y = DVector::from_fn(12, |i, _| f(&at(&x, i)));
             let gp = Gp::fit(&x, &y, (Scatter::None, None), Trend::Linear).unwrap();
-            let square = |off: Vec<f64>| off.iter().map(|o| o * o).sum::<f64>() / 12.0;
+            let square = |off: Vec<LeftOut>| off.iter().map(|o| o.scaled().powi(2)).sum::<f64>() / 12.0;
             let factors =
                 [square(crossed(&gp, &x, &y, Scatter::None).unwrap()), square(gp.left_out().unwrap())];
             for z in (0..50).map(|_| [0; 3].map(|_| unit(&mut random))) {

@@ -56,6 +56,20 @@ pub(crate) struct Prediction {
     pub variance: f64,
 }
 
+/// How far a point is from what the others say of it, and the deviation that they expect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LeftOut {
+    pub error: f64,
+    pub deviation: f64,
+}
+
+impl LeftOut {
+    /// The error over its deviation.
+    pub fn scaled(&self) -> f64 {
+        self.error / self.deviation
+    }
+}
+
 impl Gp {
     /// Fits a process to the rows of `inputs`, whose values have this scatter; `start` are the lengths of an earlier fit.
     pub fn fit(
@@ -139,11 +153,14 @@ impl Gp {
         self.parts(z).0
     }
 
-    /// For each point: its distance from what the others say, over the deviation of that (eqs. 5.10–5.12, with the trend).
-    pub fn left_out(&self) -> Option<Vec<f64>> {
+    /// For each point: its distance from what the others say (eqs. 5.10–5.12, with the trend).
+    pub fn left_out(&self) -> Option<Vec<LeftOut>> {
         let along = self.chol.l_dirty().tr_solve_lower_triangular(&self.white)?;
         let q = self.chol.inverse() - &along * self.along.solve(&along.transpose());
-        let off = |i: usize| self.alpha[i] / (q[(i, i)].max(1e-300) * self.scale).sqrt();
+        let off = |i: usize| {
+            let own = q[(i, i)].max(1e-300);
+            LeftOut { error: self.alpha[i] / own, deviation: (self.scale / own).sqrt() }
+        };
         Some((0..self.alpha.len()).map(off).collect())
     }
 

@@ -1,7 +1,7 @@
 //! How an emulator learns: outputs along their principal directions, the process of each, and how specimens scatter.
 
 use super::crossed::crossed;
-use super::gp::{Gp, Logs};
+use super::gp::{Gp, LeftOut, Logs};
 use super::likelihood::Scatter;
 use super::prediction::{Emulator, Refined};
 use super::trend::Trend;
@@ -69,6 +69,9 @@ impl Emulator {
         let off = rescale(&mut components, &left_out, &near);
         let noise: Vec<f64> =
             components.iter().map(|gp| gp.noise * lessons.seeds / lessons.specimens).collect();
+        let chance: Vec<f64> =
+            components.iter().map(|gp| if lessons.random { gp.noise } else { 0.0 }).collect();
+        let unseen = unseen(&left_out, &chance, &scores);
         let alike = off.tr_mul(&off) / near.len() as f64;
         let wider = hartlap(near.len(), components.len());
         let specimens = DMatrix::from_fn(noise.len(), noise.len(), |k, l| {
@@ -82,16 +85,30 @@ impl Emulator {
             components,
             target,
             noise,
+            chance,
             active,
             specimens,
             beside,
             points,
+            unseen,
             factor,
             mean,
             basis,
             refined,
         })
     }
+}
+
+/// By how much trials that are left out are missed, beside chance, over how much all trials spread (root mean squares over trials and components).
+fn unseen(left_out: &[Vec<LeftOut>], chance: &[f64], scores: &DMatrix<f64>) -> f64 {
+    let n = scores.ncols() as f64;
+    let error = |(all, chance): (&Vec<LeftOut>, &f64)| {
+        (all.iter().map(|o| o.error * o.error).sum::<f64>() / n - chance).max(0.0)
+    };
+    let missed: f64 = left_out.iter().zip(chance).map(error).sum();
+    // Scores have no mean.
+    let spread = (scores.norm_squared() / n - chance.iter().sum::<f64>()).max(1e-300);
+    (missed / spread).sqrt()
 }
 
 /// The inverse of a covariance of few samples is too large on average: the covariance is widened by this factor. Hartlap, Simon & Schneider
@@ -192,7 +209,7 @@ impl Features {
         lessons: &Lessons,
         scores: &DMatrix<f64>,
         components: &[Gp],
-    ) -> Option<Vec<Vec<f64>>> {
+    ) -> Option<Vec<Vec<LeftOut>>> {
         let few = lessons.inputs.nrows() < FEW * lessons.inputs.ncols();
         let left_out = |(k, gp): (usize, &Gp)| match few {
             true => crossed(gp, &self.inputs[k], &scores.row(k).transpose(), lessons.scatter())
@@ -204,12 +221,15 @@ impl Features {
 }
 
 /// Makes the deviations of each component as wide as its errors at the trials `near` the data say; the errors over that.
-pub(super) fn rescale(components: &mut [Gp], left_out: &[Vec<f64>], near: &[usize]) -> DMatrix<f64> {
+pub(super) fn rescale(components: &mut [Gp], left_out: &[Vec<LeftOut>], near: &[usize]) -> DMatrix<f64> {
     let mut off = DMatrix::zeros(near.len(), components.len());
     for (k, (gp, all)) in components.iter_mut().zip(left_out).enumerate() {
-        let mean = near.iter().map(|&i| all[i] * all[i]).sum::<f64>() / near.len() as f64;
+        let mean = near.iter().map(|&i| all[i].scaled().powi(2)).sum::<f64>() / near.len() as f64;
         gp.rescale(mean.max(LEAST_FACTOR));
-        off.column_mut(k).iter_mut().zip(near).for_each(|(o, &i)| *o = all[i] / mean.max(1e-300).sqrt());
+        off.column_mut(k)
+            .iter_mut()
+            .zip(near)
+            .for_each(|(o, &i)| *o = all[i].scaled() / mean.max(1e-300).sqrt());
     }
     off
 }

@@ -28,4 +28,4 @@ mod trend;
 
 pub(crate) use gp::{Gp, Logs, Prediction};
 pub(crate) use learn::{Lessons, MOST_TRIALS};
-pub(crate) use prediction::{Emulator, distance};
+pub(crate) use prediction::{Emulator, Expected, distance};

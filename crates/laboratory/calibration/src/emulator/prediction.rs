@@ -3,6 +3,13 @@
 use super::gp::{Gp, Logs, Prediction};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+/// What is expected of the square of a misfit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Expected {
+    pub mean: f64,
+    pub variance: f64,
+}
+
 /// The emulator of one part.
 #[derive(Clone)]
 pub(crate) struct Emulator {
@@ -12,6 +19,8 @@ pub(crate) struct Emulator {
     pub target: Vec<f64>,
     /// Variance of a specimen in each component.
     pub noise: Vec<f64>,
+    /// Variance of runs from one seed to the next in each component; 0 where the same point gives the same run.
+    pub chance: Vec<f64>,
     /// Components that change with the parameters.
     pub active: Vec<usize>,
     /// Covariance of specimens in the components.
@@ -20,6 +29,8 @@ pub(crate) struct Emulator {
     pub beside: f64,
     /// Points of the data.
     pub points: usize,
+    /// By how much trials that are left out are missed, beside chance, over how much all trials spread.
+    pub unseen: f64,
     pub(super) factor: DMatrix<f64>,
     pub(super) mean: DVector<f64>,
     pub(super) basis: DMatrix<f64>,
@@ -46,6 +57,25 @@ impl Emulator {
             Some((square, log_det)) => -0.5 * (square + log_det),
             None => f64::NEG_INFINITY,
         }
+    }
+
+    /// What is expected of the square of the misfit of a run at a point, over the deviations of the data alone.
+    pub fn expected(&self, z: &[f64]) -> Expected {
+        let (inputs, mut all) = (self.inputs(z), Expected { mean: self.beside, variance: 0.0 });
+        for ((gp, input), target) in self.components.iter().zip(&inputs).zip(&self.target) {
+            let Prediction { mean, variance } = gp.predict(input);
+            let (square, own) = ((mean - target) * (mean - target), variance + gp.noise);
+            all.mean += square + own;
+            all.variance += 4.0 * own * square + 2.0 * own * own;
+        }
+        all
+    }
+
+    /// Variance of the emulator over that of data and specimens at a point, of each component that tells something.
+    pub fn shares(&self, z: &[f64], inflation: f64) -> Vec<f64> {
+        let inputs = self.inputs(z);
+        let of = |&k: &usize| self.components[k].predict(&inputs[k]).variance / (inflation + self.noise[k]);
+        self.active.iter().map(of).collect()
     }
 
     /// Square of the misfit at a point, over the deviations of data and emulator.

@@ -137,7 +137,7 @@ fn improvement(fitted: &Fitted, processes: &[(&Gp, f64, f64)], c: &Candidate, se
         };
         fitted.emulators.iter().map(of).sum()
     };
-    let best = fitted.known.first().map_or(f64::INFINITY, |z| square(z));
+    let best = fitted.known.first().map_or(f64::INFINITY, |t| square(&t.z));
     let mut random = generator(seed, DRAWS, 0);
     let mut gain = 0.0;
     for _ in 0..DRAWN {

@@ -1,5 +1,6 @@
 //! What the trials tell: emulators of the curves, the posterior, and the next trials.
 
+mod best;
 pub(crate) mod choice;
 mod feasible;
 pub(crate) mod halton;
@@ -19,6 +20,8 @@ use sample::{Length, Samples, draw};
 
 /// Trials that chains may begin at.
 const MOST_KNOWN: usize = 60;
+/// Samples that the emulator's doubt is the mean of.
+const DOUBTED: usize = 400;
 
 /// Where a step begins.
 pub(crate) struct StepStart<'a> {
@@ -28,6 +31,16 @@ pub(crate) struct StepStart<'a> {
     pub region: &'a Region,
     /// What the step that it refines has learnt.
     pub refined: Option<&'a Fitted<'a>>,
+}
+
+/// A trial with a result.
+#[derive(Debug, Clone)]
+pub(crate) struct KnownTrial {
+    pub number: usize,
+    /// Square of its misfit.
+    pub misfit: f64,
+    /// Coordinates of the fitted parameters.
+    pub z: Vec<f64>,
 }
 
 /// What a step has learnt.
@@ -40,8 +53,8 @@ pub(crate) struct Fitted<'a> {
     pub emulators: Vec<Emulator>,
     /// Where trials come to their end.
     pub feasible: Feasible,
-    /// Coordinates of the trials that it learnt from, least misfit first.
-    pub known: Vec<Vec<f64>>,
+    /// The trials that it learnt from, least misfit first.
+    pub known: Vec<KnownTrial>,
     /// How much more the data deviate than they say, as a variance ≥ 1.
     pub inflation: f64,
 }
@@ -114,10 +127,12 @@ impl<'a> Fitted<'a> {
         let ends =
             mine.iter().filter(|t| matches!(t.status, Status::Done | Status::Abandoned | Status::Stopped));
         let feasible = Feasible::new(ends.map(|t| (own(&t.trial.z), t.status != Status::Stopped)).collect());
-        let mut known: Vec<(f64, Vec<f64>)> =
-            mine.iter().filter_map(|t| Some((misfit(recipe, &step.to, t)?, own(&t.trial.z)))).collect();
-        known.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let known = known.into_iter().map(|k| k.1).collect();
+        let trial = |t: &&Tried| {
+            let (number, z) = (t.trial.number, own(&t.trial.z));
+            Some(KnownTrial { number, misfit: misfit(recipe, &step.to, t)?, z })
+        };
+        let mut known: Vec<KnownTrial> = mine.iter().filter_map(trial).collect();
+        known.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
         let region = place.region.clone();
         Some(Fitted { recipe, step, region, emulators, feasible, known, inflation: 1.0 })
     }
@@ -129,21 +144,24 @@ impl<'a> Fitted<'a> {
 
     /// Logarithm of the posterior's density, up to a constant.
     pub fn log_density(&self, z: &[f64]) -> f64 {
-        let prior: f64 =
-            self.step.fit.iter().zip(z).map(|(&k, z)| self.recipe.parameters[k].log_prior(*z)).sum();
         let likelihood: f64 = self.emulators.iter().map(|e| e.log_likelihood(z, self.inflation)).sum();
-        prior + likelihood + self.feasible.log_chance(z)
+        self.log_prior(z) + likelihood + self.feasible.log_chance(z)
+    }
+
+    fn log_prior(&self, z: &[f64]) -> f64 {
+        self.step.fit.iter().zip(z).map(|(&k, z)| self.recipe.parameters[k].log_prior(*z)).sum()
     }
 
     /// Samples of the posterior.
     pub fn samples(&self, seed: u64, length: Length) -> Samples {
         // Trials of a folder may lie outside of bounds that are narrower now.
         let inside = |z: &&Vec<f64>| z.iter().all(|z| (0.0..=1.0).contains(z));
-        let known: Vec<Vec<f64>> = self.known.iter().filter(inside).take(MOST_KNOWN).cloned().collect();
+        let known: Vec<Vec<f64>> =
+            self.known.iter().map(|t| &t.z).filter(inside).take(MOST_KNOWN).cloned().collect();
         draw(&|z: &[f64]| self.log_density(z), self.step.fit.len(), &known, seed, length)
     }
 
-    /// Square of the misfit at a point, and the degrees of freedom that it should have.
+    /// Square of the misfit at a point over the deviations of data, specimens and emulator, and the degrees of freedom that it should have.
     pub fn misfit(&self, z: &[f64]) -> (f64, f64) {
         let points: usize = self.emulators.iter().map(|e| e.points).sum();
         let free = (points as f64 - self.step.fit.len() as f64).max(1.0);
@@ -151,13 +169,28 @@ impl<'a> Fitted<'a> {
     }
 
     /// Widens the data's deviations if no point fits within them: by the ratio of Birge (1932), doi:10.1103/PhysRev.40.207. The best trial
-    /// counts beside the best of the posterior, which a narrow prior may hold away from what fits.
+    /// counts beside the best point, which a narrow prior may hold away from what fits.
     pub fn inflate(&mut self, best: &[f64]) {
         let (at_best, free) = self.misfit(best);
-        let square = self.known.first().map_or(at_best, |z| at_best.min(self.misfit(z).0));
+        let square = self.known.first().map_or(at_best, |t| at_best.min(self.misfit(&t.z).0));
         if is_misfit(square, free) {
             self.inflation = square / free;
         }
+    }
+
+    /// Deviation of the emulator where the parameters may lie, over that of data and specimens: root of the mean over the posterior, of the component that is known
+    /// least.
+    pub fn doubt(&self, samples: &Samples) -> f64 {
+        let every = samples.list.len().div_ceil(DOUBTED).max(1);
+        let some: Vec<&[f64]> = samples.list.iter().step_by(every).map(|s| s.z.as_slice()).collect();
+        let of = |e: &Emulator| {
+            let sums = some.iter().fold(vec![0.0; e.active.len()], |mut sums, z| {
+                e.shares(z, self.inflation).iter().zip(&mut sums).for_each(|(share, sum)| *sum += share);
+                sums
+            });
+            sums.into_iter().fold(0.0, f64::max) / some.len().max(1) as f64
+        };
+        self.emulators.iter().map(of).fold(0.0, f64::max).sqrt()
     }
 
     /// Lengths, to begin the next fit with, with the digits that a file keeps.

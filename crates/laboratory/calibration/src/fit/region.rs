@@ -64,7 +64,7 @@ mod tests {
     fn a_region_has_room_around_what_is_left() {
         let sample = |k: u32| PosteriorPoint { z: vec![0.4 + 0.2 * f64::from(k) / 1000.0, 0.95], log: 0.0 };
         let list: Vec<PosteriorPoint> = (0..=1000).map(sample).collect();
-        let samples = Samples { best: list[0].clone(), list, ratio: 1.0 };
+        let samples = Samples { list, ratio: 1.0 };
         let region = Region::left_by(&samples, 2);
         assert_eq!(region, Region(vec![[0.302, 0.698], [0.9, 1.0]]));
         assert_eq!(region.at(&[0.5, 0.5]), [0.5, 0.95]);

@@ -40,11 +40,15 @@ pub(crate) struct Length {
 /// Samples, and the largest ratio R̂ of the deviations of all chains and of each (Gelman & Rubin 1992, doi:10.1214/ss/1177011136).
 pub(crate) struct Samples {
     pub list: Vec<PosteriorPoint>,
-    pub best: PosteriorPoint,
     pub ratio: f64,
 }
 
 impl Samples {
+    /// Number of coordinates.
+    pub fn dimensions(&self) -> usize {
+        self.list.first().map_or(0, |s| s.z.len())
+    }
+
     /// Coordinate `at` of all of them, in order of size.
     pub fn sorted(&self, at: usize) -> Vec<f64> {
         let mut values: Vec<f64> = self.list.iter().map(|s| s.z[at]).collect();
@@ -88,12 +92,7 @@ pub(crate) fn draw(density: &Density, d: usize, known: &[Vec<f64>], seed: u64, l
     }
     let ratio = ratio(&chains, d);
     let list: Vec<PosteriorPoint> = chains.into_iter().flat_map(|c| c.kept).collect();
-    let best = list
-        .iter()
-        .max_by(|a, b| a.log.total_cmp(&b.log))
-        .cloned()
-        .unwrap_or(PosteriorPoint { z: vec![0.5; d], log: 0.0 });
-    Samples { list, best, ratio }
+    Samples { list, ratio }
 }
 
 /// From an even density to the one that is wanted, by powers of it, so that chains do not begin in unlikely places: sequential Monte Carlo

@@ -1,89 +1,27 @@
-//! Tables of numbers: CSV with one header line, or a report (JSON).
+//! Tables of numbers: columns with a header, or a report (JSON).
 
 use crate::error::{CalibrateError, Location, Result, hint};
+use sheet::Column;
 use std::collections::BTreeMap;
 
-/// Most bytes of a table.
-const MOST: usize = 1 << 28;
-
-/// A column's name and unit: `stress [kPa]`, `stress (kPa)` or `stress`.
-#[derive(Debug, Clone, PartialEq)]
-struct Column {
-    name: String,
-    unit: Option<String>,
-}
-
-impl Column {
-    fn new(text: &str) -> Column {
-        let text = text.trim().trim_start_matches('\u{feff}');
-        for (open, close) in [('[', ']'), ('(', ')')] {
-            if let Some((name, unit)) = text.strip_suffix(close).and_then(|t| t.rsplit_once(open)) {
-                return Column { name: name.trim().to_owned(), unit: Some(unit.trim().to_owned()) };
-            }
-        }
-        Column { name: text.to_owned(), unit: None }
-    }
-}
-
-/// A table.
+/// A table of a file.
 #[derive(Debug)]
 pub struct Sheet {
     file: String,
     columns: Vec<Column>,
     /// Line in the file, and cells.
-    rows: Vec<(usize, Vec<String>)>,
+    rows: Vec<sheet::Row>,
 }
 
 impl Sheet {
-    /// Reads a table; lines that begin with `#` are passed over.
+    /// Reads a table ([`sheet::Sheet`]).
     ///
     /// # Errors
     /// No header, rows of other lengths.
     pub fn parse(file: &str, text: &str) -> Result<Sheet> {
-        let refuse = |line: usize, message: String| CalibrateError::Data {
-            place: Location::line(file, line),
-            message,
-        };
-        if text.len() > MOST {
-            return Err(refuse(1, format!("{} bytes: give a table below {MOST}", text.len())));
-        }
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .has_headers(false)
-            .flexible(true)
-            .from_reader(text.as_bytes());
-        let mut columns: Vec<Column> = Vec::new();
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|e| {
-                refuse(e.position().map_or(1, |p| p.line() as usize), "cannot be read as CSV".to_owned())
-            })?;
-            let line = record.position().map_or(0, |p| p.line() as usize);
-            if columns.is_empty() {
-                columns = record.iter().map(Column::new).collect();
-                if columns.len() == 1 && record[0].contains(';') {
-                    return Err(refuse(
-                        line,
-                        "columns are separated by ';': write ',' between them and '.' in numbers".to_owned(),
-                    ));
-                }
-                continue;
-            }
-            if record.len() != columns.len() {
-                let message = format!(
-                    "{} cells, but the header has {} columns: write one cell for each",
-                    record.len(),
-                    columns.len()
-                );
-                return Err(refuse(line, message));
-            }
-            rows.push((line, record.iter().map(str::to_owned).collect()));
-        }
-        if columns.is_empty() {
-            return Err(refuse(1, "is empty: a table has a header and rows".to_owned()));
-        }
-        Ok(Sheet { file: file.to_owned(), columns, rows })
+        let sheet = sheet::Sheet::parse(text)
+            .map_err(|e| CalibrateError::Data { place: Location::line(file, e.line), message: e.message })?;
+        Ok(Sheet { file: file.to_owned(), columns: sheet.columns, rows: sheet.rows })
     }
 
     /// Index and unit of a column.
@@ -95,15 +33,7 @@ impl Sheet {
         let known = self.columns.iter().map(|c| c.name.as_str());
         match known.clone().position(|k| k == wanted.name) {
             Some(k) => Ok((k, wanted.unit.is_none().then_some(self.columns[k].unit.as_deref()).flatten())),
-            None => {
-                let numbers = self.columns.iter().all(|c| c.name.parse::<f64>().is_ok());
-                let more = if numbers {
-                    ": its first line has numbers: add a header".to_owned()
-                } else {
-                    hint(name, known)
-                };
-                Err(self.refuse(1, format!("no column '{name}'{more}")))
-            }
+            None => Err(self.refuse(1, format!("no column '{name}'{}", hint(name, known)))),
         }
     }
 
@@ -246,10 +176,12 @@ mod tests {
             "c.csv:3: column 'y' has a gap: delete the row, or fill the cell"
         );
         assert!(why("x,y\n1,nan\n", &["y"]).contains("c.csv:2: column 'y': 'nan' is not a finite number"));
-        assert!(why("x,y\n1,2,3\n", &["x"]).contains("c.csv:2: 3 cells, but the header has 2 columns"));
+        assert!(
+            why("x,y\n1,2,3\n", &["x"])
+                .contains("c.csv:2: 3 cells between commas, but the header has 2 columns")
+        );
         assert!(why("u,stres\n1,2\n", &["stress"]).contains("did you mean 'stres'?"));
-        assert!(why("1,2\n3,4\n", &["x"]).contains("add a header"));
-        assert!(why("x;y\n1;2\n", &["x"]).contains("separated by ';'"));
+        assert!(why("1,2\n3,4\n", &["x"]).contains("c.csv:1: its first line has numbers"));
         assert!(why("", &["x"]).contains("is empty") && why("x\n", &["x"]).contains("has no rows"));
     }
 

@@ -2,6 +2,7 @@
 
 use crate::fit::sensitivity::{Sensitivity, sensitivity};
 use crate::recipe::{Recipe, Step};
+use crate::report::fitness::{StepFit, step_fit};
 use crate::session::{StepEnd, Tried};
 use serde::Serialize;
 
@@ -28,7 +29,7 @@ pub struct Finding {
     pub low: f64,
     /// Upper end.
     pub high: f64,
-    /// Value at the best fit.
+    /// Value at the best point: the least misfit that is expected, or, where a run of it is worse, the nearest trial.
     pub best: f64,
     /// Whether that is an end of its bounds.
     pub at_bound: bool,
@@ -68,24 +69,6 @@ pub struct PartSensitivity {
     pub total: Vec<f64>,
 }
 
-/// How well a step fits.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct StepFit {
-    /// Its name.
-    pub step: String,
-    pub trials: usize,
-    /// Whether it ended early, because more trials would tell nothing.
-    pub early: bool,
-    /// Square of the misfit of the best point, by the emulator.
-    pub misfit: f64,
-    /// What it should be: points less parameters.
-    pub free: f64,
-    /// By how much the deviations of the data were widened.
-    pub widened: f64,
-    /// Ratio R̂ of the chains.
-    pub chains: f64,
-}
-
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Judged {
     /// Content of the intervals.
@@ -112,11 +95,7 @@ pub fn judge(recipe: &Recipe, tried: &[Tried], ends: &[StepEnd]) -> Judged {
         let last = ends.iter().rev().find_map(|e| Some((e, e.fitted.step.fit.iter().position(|f| *f == k)?)));
         last.map(|(end, at)| finding(recipe, end, (k, at), &sensitivities))
     };
-    let fit = |e: &StepEnd| {
-        let (misfit, free) = e.fitted.misfit(&e.samples.best.z);
-        let (step, widened) = (e.fitted.step.name.clone(), e.fitted.inflation.sqrt());
-        StepFit { step, trials: e.trials, early: e.early, misfit, free, widened, chains: e.samples.ratio }
-    };
+    let runs = ends.iter().filter_map(|end| end.best.run.as_ref());
     let cut = || tried.iter().filter_map(|t| t.cut.clone());
     Judged {
         cut: (cut().count(), cut().next()),
@@ -124,8 +103,8 @@ pub fn judge(recipe: &Recipe, tried: &[Tried], ends: &[StepEnd]) -> Judged {
         findings: (0..recipe.parameters.len()).filter_map(finding).collect(),
         pairs: ends.last().map_or(Vec::new(), |e| pairs(recipe, e)),
         sensitivities,
-        steps: ends.iter().map(fit).collect(),
-        seconds: tried.iter().map(|t| t.seconds).sum(),
+        steps: ends.iter().map(|end| step_fit(recipe, end)).collect(),
+        seconds: tried.iter().chain(runs).map(|t| t.seconds).sum(),
         trials: [Done, Stopped, Failed, Abandoned].map(|s| tried.iter().filter(|t| t.status == s).count()),
     }
 }
@@ -141,7 +120,7 @@ fn finding(recipe: &Recipe, end: &StepEnd, of: (usize, usize), sensitivities: &[
     let (k, at) = of;
     let p = &recipe.parameters[k];
     let tail = 0.5 * (1.0 - recipe.settings.interval);
-    let values = end.samples.sorted(at);
+    let (values, best) = (end.samples.sorted(at), end.best_point()[at]);
     let ends = [tail, 1.0 - tail].map(|s| quantile(&values, s));
     let prior = [tail, 1.0 - tail].map(|s| p.prior_quantile(s));
     let width = (ends[1] - ends[0]) / (prior[1] - prior[0]);
@@ -153,8 +132,8 @@ fn finding(recipe: &Recipe, end: &StepEnd, of: (usize, usize), sensitivities: &[
         value: p.value(quantile(&values, 0.5)),
         low: p.value(ends[0]),
         high: p.value(ends[1]),
-        best: p.value(end.samples.best.z[at]),
-        at_bound: !(AT_BOUND..=1.0 - AT_BOUND).contains(&end.samples.best.z[at]),
+        best: p.value(best),
+        at_bound: !(AT_BOUND..=1.0 - AT_BOUND).contains(&best),
         prior: prior.map(|z| p.value(z)),
         width,
         determined: width < DETERMINED,

@@ -1,6 +1,7 @@
 //! The page of a calibration: one HTML file without outside parts.
 
 use crate::recipe::{Recipe, shown};
+use crate::report::explained;
 use crate::report::judge::Judged;
 use crate::words;
 use std::fmt::Write as _;
@@ -19,7 +20,10 @@ pub fn html(recipe: &Recipe, judged: &Judged, picture: &str) -> String {
     let mut page = format!(
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>{title}</title><style>{STYLE}</style><h1>{title}</h1>"
     );
-    page += &parameters(judged);
+    if let Some(line) = words::headline(judged) {
+        let _ = write!(page, "<p class=\"warn\"><strong>{}</strong></p>", escaped(&line));
+    }
+    page += &tables(judged);
     page += "<ul>";
     for warning in words::warnings(judged) {
         let _ = write!(page, "<li class=\"warn\">{}</li>", escaped(&warning));
@@ -56,18 +60,26 @@ pub fn html(recipe: &Recipe, judged: &Judged, picture: &str) -> String {
             escaped(source)
         );
     }
+    page += "</table><h2>Columns</h2><p>Columns of the table that <code>-o</code> writes; those above are the same.</p><table><tr><th>column</th><th>meaning</th></tr>";
+    for (name, means) in explained::columns() {
+        let _ = write!(page, "<tr><td><code>{name}</code></td><td>{}</td></tr>", escaped(means));
+    }
     page + "</table></html>\n"
 }
 
-fn parameters(judged: &Judged) -> String {
-    let mut table = String::from("<table>");
-    for (k, line) in words::markdown(judged).lines().take_while(|l| l.starts_with('|')).enumerate() {
-        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let tag = if k == 0 { "th" } else { "td" };
-        if k != 1 {
-            let row: String = cells.iter().map(|c| format!("<{tag}>{}</{tag}>", escaped(c))).collect();
-            let _ = write!(table, "<tr>{row}</tr>");
+/// The tables of the Markdown.
+fn tables(judged: &Judged) -> String {
+    let markdown = words::markdown(judged);
+    let mut page = String::new();
+    for lines in markdown.split("\n\n").filter(|block| block.starts_with('|')) {
+        page += "<table>";
+        for (k, line) in lines.lines().enumerate().filter(|(k, _)| *k != 1) {
+            let cells = line.trim_matches('|').split('|').map(str::trim);
+            let tag = if k == 0 { "th" } else { "td" };
+            let row: String = cells.map(|c| format!("<{tag}>{}</{tag}>", escaped(c))).collect();
+            let _ = write!(page, "<tr>{row}</tr>");
         }
+        page += "</table>";
     }
-    table + "</table>"
+    page
 }

@@ -58,11 +58,12 @@ fn unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
 }
 
-/// Data with their deviations, the best fit, and the interval of the posterior.
+/// Data with their deviations, the best point as the emulator says and as it was simulated, and the interval of the posterior.
 fn fit(recipe: &Recipe, end: &StepEnd, of: (usize, &Part)) -> Panel {
     let (test, emulator) = (&recipe.tests[of.1.test], &end.fitted.emulators[of.0]);
     let Some(target) = &test.target else { return labelled(Vec::new(), &test.name, "", "") };
-    let points: Vec<_> = target.part(of.1.from, of.1.until).into_iter().map(|k| target.points[k]).collect();
+    let test_points = target.part(of.1.from, of.1.until);
+    let points: Vec<_> = test_points.iter().map(|&k| target.points[k]).collect();
     let data: Vec<(f64, f64)> =
         points.iter().map(|p| (if test.x.is_some() { p.x } else { 1.0 }, p.y)).collect();
     let bars: Vec<f64> = points
@@ -79,7 +80,8 @@ fn fit(recipe: &Recipe, end: &StepEnd, of: (usize, &Part)) -> Panel {
         quantile(&values, share)
     };
     let x: Vec<f64> = data.iter().map(|p| p.0).collect();
-    let best = emulator.curve(&end.samples.best.z);
+    let best = emulator.curve(&end.best_point());
+    let run = simulated(end, of.1, &test_points);
     let scatter = ScatterPlot::new()
         .with_data(data)
         .with_y_err(bars)
@@ -96,8 +98,23 @@ fn fit(recipe: &Recipe, end: &StepEnd, of: (usize, &Part)) -> Panel {
         );
         let line: Vec<(f64, f64)> = x.iter().copied().zip(best).collect();
         plots.push(Plot::from(
-            LinePlot::new().with_data(line).with_color(COLOURS[0]).with_stroke_width(1.6).with_legend("fit"),
+            LinePlot::new()
+                .with_data(line)
+                .with_color(COLOURS[0])
+                .with_stroke_width(1.6)
+                .with_legend("best, predicted"),
         ));
+        if let Some(run) = run {
+            let line: Vec<(f64, f64)> = x.iter().copied().zip(run).collect();
+            plots.push(Plot::from(
+                LinePlot::new()
+                    .with_data(line)
+                    .with_color(COLOURS[1])
+                    .with_stroke_width(1.6)
+                    .with_line_style(LineStyle::Dashed)
+                    .with_legend("best, simulated"),
+            ));
+        }
     } else {
         let middle = at(0, 0.5);
         let ends = (middle - at(0, tail), at(0, 1.0 - tail) - middle);
@@ -106,7 +123,11 @@ fn fit(recipe: &Recipe, end: &StepEnd, of: (usize, &Part)) -> Panel {
             .with_y_err_asymmetric(vec![ends])
             .with_color(COLOURS[0])
             .with_size(3.0);
-        plots.push(Plot::from(dot.with_legend("fit")));
+        plots.push(Plot::from(dot.with_legend("posterior")));
+        if let Some(run) = run {
+            let dot = ScatterPlot::new().with_data(vec![(2.5, run[0])]).with_color(COLOURS[1]).with_size(3.0);
+            plots.push(Plot::from(dot.with_legend("best, simulated")));
+        }
     }
     let (x_label, y_label) = (test.x.as_deref().unwrap_or(""), test.y.as_deref().unwrap_or("value"));
     let (plots, layout) =
@@ -117,6 +138,12 @@ fn fit(recipe: &Recipe, end: &StepEnd, of: (usize, &Part)) -> Panel {
     // A number has no x: data and fit stand side by side.
     let layout = layout.with_x_axis_min(0.0).with_x_axis_max(3.0);
     (plots, layout.with_x_tick_format(TickFormat::Custom(Arc::new(|_| String::new()))))
+}
+
+/// What the run that stands for the best point has at points of a test.
+fn simulated(end: &StepEnd, part: &Part, points: &[usize]) -> Option<Vec<f64>> {
+    let output = end.best.shown()?.outputs[part.test].as_ref()?;
+    Some(points.iter().map(|&k| output[k]).collect())
 }
 
 /// Samples of the pairs that are most correlated.
@@ -138,7 +165,8 @@ fn pairs(recipe: &Recipe, end: &StepEnd) -> Vec<Panel> {
             .with_color(COLOURS[0])
             .with_size(1.6)
             .with_marker_opacity(0.4);
-        let best = vec![(p.value(end.samples.best.z[j]), q.value(end.samples.best.z[i]))];
+        let point = end.best_point();
+        let best = vec![(p.value(point[j]), q.value(point[i]))];
         let best =
             ScatterPlot::new().with_data(best).with_color(COLOURS[1]).with_size(4.0).with_legend("best");
         let plots = vec![Plot::from(cloud), Plot::from(best)];

@@ -9,7 +9,7 @@ use crate::recipe::Step;
 use crate::trial::output::{TrialOutput, on_grid, outcome};
 use crate::trial::pool::Pool;
 use crate::trial::run::{Ended, is_done, is_outdated, tools};
-use crate::trial::{self, Trial, TrialRun};
+use crate::trial::{self, Trial, TrialOf, TrialRun};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -71,7 +71,7 @@ impl Session<'_> {
         let trial = |(k, point): (usize, &Vec<f64>)| {
             let mut z = held.to_vec();
             step.fit.iter().zip(point).for_each(|(&p, v)| z[p] = *v);
-            Trial { number: number + k + 1, step: of.0, batch: of.1, z }
+            Trial { number: number + k + 1, step: of.0, batch: of.1, z, of: TrialOf::Search }
         };
         let mut new: Vec<Tried> =
             proposal.points.iter().enumerate().map(trial).map(|t| self.untried(t)).collect();
@@ -117,7 +117,12 @@ impl Session<'_> {
     }
 
     /// Writes the jobs of the trials that are still hopeful: for each trial its runs.
-    fn prepare(&self, new: &[Tried], tests: &[usize], work: &mut Work) -> Result<Vec<Vec<TrialRun>>> {
+    pub(super) fn prepare(
+        &self,
+        new: &[Tried],
+        tests: &[usize],
+        work: &mut Work,
+    ) -> Result<Vec<Vec<TrialRun>>> {
         let mut all = Vec::new();
         for t in new {
             let mut runs = Vec::new();
@@ -125,7 +130,10 @@ impl Session<'_> {
                 for &test in tests {
                     runs.extend(trial::runs(self.recipe, &self.dir, &t.trial, test));
                 }
-                self.say_what_is_used_again(&runs, work);
+                // Another best point is another command, which is no news.
+                if t.trial.of == TrialOf::Search {
+                    self.say_what_is_used_again(&runs, work);
+                }
                 if runs.iter().any(|r| !is_done(&r.file, &r.job, work.since)) {
                     trial::write(self.recipe, &self.dir, &t.trial, &runs)?;
                 }
@@ -158,7 +166,7 @@ impl Session<'_> {
         }
     }
 
-    fn work_off(&self, runs: &[TrialRun], work: &Work, step: &str) -> Result<()> {
+    pub(super) fn work_off(&self, runs: &[TrialRun], work: &Work, step: &str) -> Result<()> {
         let open: Vec<TrialRun> =
             runs.iter().filter(|r| !is_done(&r.file, &r.job, work.since)).cloned().collect();
         let (done, total) = work.found(runs.len() - open.len());
@@ -251,12 +259,12 @@ impl Session<'_> {
             geom::Shown(100.0 * self.recipe.settings.failures),
             first.why.as_deref().unwrap_or("")
         );
-        Err(CalibrateError::Folder { folder: trial::folder(&self.dir, first.trial.number), message })
+        Err(CalibrateError::Folder { folder: first.trial.folder(&self.dir), message })
     }
 }
 
 /// Runs that tests share, each once.
-fn once<'a>(runs: impl IntoIterator<Item = &'a TrialRun>) -> Vec<TrialRun> {
+pub(super) fn once<'a>(runs: impl IntoIterator<Item = &'a TrialRun>) -> Vec<TrialRun> {
     let mut files = std::collections::BTreeSet::new();
     runs.into_iter().filter(|r| files.insert(&r.file)).cloned().collect()
 }

@@ -7,9 +7,10 @@ mod batch;
 mod proposal;
 mod record;
 mod so_far;
+mod verify;
 mod work;
 
-pub(crate) use record::cell;
+pub(crate) use record::{Best, cell};
 pub use record::{Status, Tried, table};
 
 use crate::error::{CalibrateError, Result};
@@ -44,6 +45,8 @@ pub struct Session<'a> {
     pub list: bool,
     /// Whether tests without data are simulated, too.
     pub candidates: bool,
+    /// Whether the best point of each step is simulated at the end.
+    pub verify: bool,
 }
 
 /// What a step came to.
@@ -58,6 +61,7 @@ pub struct StepEnd<'a> {
     pub widths: Vec<(usize, Vec<f64>)>,
     /// Coordinates of the parameters that it held.
     pub held: Vec<f64>,
+    pub(crate) best: Best,
 }
 
 /// Where a calibration stands.
@@ -105,8 +109,7 @@ impl<'a> Session<'a> {
             let Some(mut end) = self.step((k, step), &mut tried, &place, &mut work)? else {
                 return Ok(Standing::Open(work.open));
             };
-            let best = end.samples.best.z.clone();
-            end.samples = self.posterior(&mut end.fitted, k, &best);
+            (end.samples, end.best) = self.posterior(&mut end.fitted, k, &end.best.predicted);
             for (j, &p) in step.fit.iter().enumerate() {
                 let values = end.samples.sorted(j);
                 // With the digits that a file keeps.
@@ -117,13 +120,18 @@ impl<'a> Session<'a> {
             }
             ends.push(end);
         }
+        if !self.verify(&mut ends, &tried, &mut work)? {
+            return Ok(Standing::Open(work.open));
+        }
         Ok(Standing::Done { tried, steps: ends })
     }
 
-    /// The final samples of a step, once its deviations allow for the misfit of the best point.
-    fn posterior(&self, fitted: &mut Fitted, step: usize, best: &[f64]) -> Samples {
+    /// The final samples of a step, once its deviations allow for the misfit of the best point, and that point.
+    fn posterior(&self, fitted: &mut Fitted, step: usize, best: &[f64]) -> (Samples, Best) {
         fitted.inflate(best);
-        fitted.samples(self.recipe.settings.seed ^ SEEDS ^ step as u64, LONG)
+        let samples = fitted.samples(self.recipe.settings.seed ^ SEEDS ^ step as u64, LONG);
+        let best = Best::unverified(fitted.best(&samples));
+        (samples, best)
     }
 
     fn found(&self, step: &Step, held: &[f64]) -> String {
@@ -154,7 +162,7 @@ impl<'a> Session<'a> {
                 logs = fitted.logs();
                 widths.push((trials, self.widths(&samples)));
                 if count == 0 || certain == 2 {
-                    let early = count > 0;
+                    let (early, best) = (count > 0, Best::unverified(fitted.best(&samples)));
                     return Ok(Some(StepEnd {
                         fitted,
                         samples,
@@ -162,6 +170,7 @@ impl<'a> Session<'a> {
                         early,
                         widths,
                         held: place.held.to_vec(),
+                        best,
                     }));
                 }
                 let make = || self.propose(&fitted, &samples, (k, batch, trials, count));
@@ -222,7 +231,7 @@ impl<'a> Session<'a> {
             let at = |s: f64| values[((s * values.len() as f64) as usize).min(values.len() - 1)];
             at(1.0 - share) - at(share)
         };
-        (0..samples.best.z.len()).map(width).collect()
+        (0..samples.dimensions()).map(width).collect()
     }
 
     fn propose(&self, fitted: &Fitted, samples: &Samples, of: (usize, usize, usize, usize)) -> Proposal {

@@ -49,6 +49,28 @@ pub struct Tried {
     pub misfit: Option<f64>,
 }
 
+/// Where the best point of a step comes from, and what a run of it showed.
+pub(crate) struct Best {
+    /// Coordinates of the fitted parameters where the emulator expects the least misfit.
+    pub predicted: Vec<f64>,
+    /// The run there; `None`: it was left out.
+    pub run: Option<Tried>,
+    /// A trial that is nearer to the data than the run, which is not what was predicted.
+    pub nearer: Option<Tried>,
+}
+
+impl Best {
+    /// A point that no run has verified.
+    pub fn unverified(predicted: Vec<f64>) -> Best {
+        Best { predicted, run: None, nearer: None }
+    }
+
+    /// The run that shows how the best point fits.
+    pub fn shown(&self) -> Option<&Tried> {
+        self.nearer.as_ref().or(self.run.as_ref())
+    }
+}
+
 /// The log of all trials: CSV.
 pub fn table(recipe: &Recipe, tried: &[Tried]) -> String {
     let mut text = "trial,step,batch,status,misfit,seconds".to_owned();

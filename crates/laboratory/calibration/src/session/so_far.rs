@@ -9,7 +9,7 @@ use crate::fit::{Fitted, StepStart, choice, misfit};
 use crate::recipe::{Step, shown};
 use crate::report::judge::quantile;
 use crate::trial::run::ended;
-use crate::trial::{self, Trial, TrialRun};
+use crate::trial::{self, Trial, TrialOf, TrialRun};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -64,10 +64,10 @@ impl<'a> Session<'a> {
             };
             check_sizes(recipe, step, until)?;
             self.held_apart(step, &held, &ends);
-            let best = fitted.samples(self.seed(k, 0), choice::SHORT).best;
-            let samples = self.posterior(&mut fitted, k, &best.z);
+            let first = fitted.best(&fitted.samples(self.seed(k, 0), choice::SHORT));
+            let (samples, best) = self.posterior(&mut fitted, k, &first);
             let (trials, widths) = (own.len(), vec![(own.len(), self.widths(&samples))]);
-            ends.push(StepEnd { fitted, samples, trials, early: false, widths, held });
+            ends.push(StepEnd { fitted, samples, trials, early: false, widths, held, best });
         }
         if let Err(failures) = self.refuse_failures(&tried) {
             self.watch.warn(&failures.to_string());
@@ -115,9 +115,10 @@ impl<'a> Session<'a> {
         let [mut of_others, mut open, mut changed] = [0; 3];
         for number in numbers {
             let folder = trial::folder(&self.dir, number);
+            let of = TrialOf::Search;
             match self.about(&folder) {
                 None => of_others += 1,
-                Some((step, batch, z)) => match self.result(Trial { number, step, batch, z }, &folder) {
+                Some((step, batch, z)) => match self.result(Trial { number, step, batch, z, of }, &folder) {
                     Stored::Result(one) => tried.push(*one),
                     Stored::Open => open += 1,
                     Stored::Other => changed += 1,

@@ -23,6 +23,8 @@ pub(super) struct Work {
     pub since: u64,
     /// Runs of each step, at most.
     steps: Vec<usize>,
+    /// Runs of the best points.
+    best: usize,
     count: Mutex<Count>,
 }
 
@@ -57,6 +59,7 @@ impl Work {
             unknown: false,
             open: Vec::new(),
             since,
+            best: session.runs_of_best(),
             steps: session.recipe.steps.iter().enumerate().map(runs).collect(),
             count: Mutex::default(),
         }
@@ -80,7 +83,7 @@ impl Work {
         let mut count = self.lock();
         count.done += done;
         count.of_step += done;
-        (count.done, self.steps.iter().sum())
+        (count.done, self.steps.iter().sum::<usize>() + self.best)
     }
 
     /// Counts a run of this process.

@@ -5,6 +5,7 @@
 //! DIR/trials/0007/shear-14.job          the command of a run: test "shear", seed 14
 //! DIR/trials/0007/shear-14/             its folder: command.sh, stdout, stderr, result.json, and what the command writes
 //! DIR/trials/0007/shear-14.lock         the process that runs it now
+//! DIR/best/1/                           the best point of step 1, likewise
 //! ```
 //!
 //! A run works in a folder `shear-14.part-HOST-PID`, which is renamed when the run has ended: what is there is whole.
@@ -19,6 +20,15 @@ use crate::recipe::{Recipe, filled, shown};
 use run::TrialJob;
 use std::path::{Path, PathBuf};
 
+/// What a trial is made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TrialOf {
+    /// To learn from.
+    Search,
+    /// To see whether the best point of its step is what the emulator says.
+    Best,
+}
+
 /// A point of the parameters that is tried.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trial {
@@ -30,6 +40,17 @@ pub struct Trial {
     pub batch: usize,
     /// Coordinates of all parameters.
     pub z: Vec<f64>,
+    pub of: TrialOf,
+}
+
+impl Trial {
+    /// Its folder.
+    pub fn folder(&self, dir: &Path) -> PathBuf {
+        match self.of {
+            TrialOf::Search => folder(dir, self.number),
+            TrialOf::Best => dir.join("best").join((self.step + 1).to_string()),
+        }
+    }
 }
 
 /// A run and where it lies.
@@ -67,7 +88,7 @@ pub fn runs(recipe: &Recipe, dir: &Path, trial: &Trial, test: usize) -> Vec<Tria
         let stamp = run::stamp(&movable, &command);
         let (timeout, here) = (recipe.settings.timeout, recipe.here.clone());
         let job = TrialJob { test: of.name.clone(), command, stamp, timeout, here };
-        TrialRun { test, file: folder(dir, trial.number).join(format!("{name}.job")), job }
+        TrialRun { test, file: trial.folder(dir).join(format!("{name}.job")), job }
     };
     (0..count).map(make).collect()
 }
@@ -84,7 +105,7 @@ fn slug(name: &str) -> String {
 /// # Errors
 /// A folder that cannot be written to.
 pub fn write(recipe: &Recipe, dir: &Path, trial: &Trial, runs: &[TrialRun]) -> Result<()> {
-    let folder = folder(dir, trial.number);
+    let folder = trial.folder(dir);
     std::fs::create_dir_all(&folder).map_err(file(&folder, "cannot create the folder"))?;
     jobs::clear_parts(&folder);
     let values: serde_json::Map<String, serde_json::Value> =

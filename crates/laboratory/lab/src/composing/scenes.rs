@@ -83,6 +83,8 @@ impl Lab {
             scene.remove("body");
             scene.add("[[particles]]\nsource = \"prepare.mcap\"\n");
         }
+        let recorded = format!("{}\n", part.text.replacen("[output]\n", "[output]\ncontacts = true\n", 1));
+        let part = &Part { text: recorded, ..part.clone() };
         self.finish(of, part, scene)
     }
 

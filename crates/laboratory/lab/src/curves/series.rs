@@ -52,15 +52,11 @@ impl Series {
     /// Reads a CSV file with names and units in its first line; an empty cell is NaN.
     pub(crate) fn read(file: &Path) -> Result<Series> {
         let wrong = |what: String| LabError::Content { file: file.to_owned(), what };
-        let mut reader = csv::Reader::from_path(file).map_err(|e| wrong(e.to_string()))?;
-        let names = reader.headers().map_err(|e| wrong(e.to_string()))?;
-        let names =
-            names.iter().map(|name| name.split(" [").next().unwrap_or_default().trim().to_owned()).collect();
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|e| wrong(e.to_string()))?;
-            rows.push(record.iter().map(|cell| cell.trim().parse().unwrap_or(f64::NAN)).collect());
-        }
+        let text = std::fs::read_to_string(file).map_err(LabError::file(file, "cannot read it"))?;
+        let sheet = sheet::Sheet::parse(&text).map_err(|e| wrong(format!("line {}: {e}", e.line)))?;
+        let names = sheet.columns.into_iter().map(|column| column.name).collect();
+        let number = |cell: &String| cell.parse().unwrap_or(f64::NAN);
+        let rows = sheet.rows.iter().map(|(_, cells)| cells.iter().map(number).collect()).collect();
         Ok(Series { names, rows, file: file.to_owned() })
     }
 

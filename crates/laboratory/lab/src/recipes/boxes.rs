@@ -48,6 +48,21 @@ fn rise(prepared: &Prepared, wall: &str) -> f64 {
     prepared.shifts.get(wall).map_or(0.0, |shift| shift.z)
 }
 
+/// A box around a specimen, its walls and all places that its grains come to, and its volume [m³].
+pub(super) fn around(of: &Context) -> (String, Option<f64>) {
+    let (low, high) = (of.specimen.low, of.specimen.high);
+    let far = (high - low).max();
+    let [a, b] = [low.add_scalar(-far), high.add_scalar(far)];
+    let corners = [a.x, a.y, a.z, b.x, b.y, b.z].map(number).join(",");
+    (format!("box:{corners}"), Some((b - a).product()))
+}
+
+/// A box whose sides stay, of these heights [m].
+pub(super) fn upright(of: &Context, heights: Vec<f64>) -> Room {
+    let [x, y] = of.specimen.sides().map(|side| vec![side; heights.len()]);
+    Room::of_box([x, y, heights])
+}
+
 /// Height of a specimen under its lid [m].
 pub(super) fn height(of: &Context, prepared: &Prepared) -> f64 {
     of.specimen.high.z - of.specimen.low.z + rise(prepared, "lid")

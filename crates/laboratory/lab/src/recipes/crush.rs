@@ -101,7 +101,7 @@ impl Recipe for Crush {
 
     fn tables(&self, of: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
         let walls = ["lower", "upper"].map(|name| (name, force_on(name)));
-        walls.into_iter().chain(common(of.sample)).collect()
+        walls.into_iter().chain(cracks(of.sample)).collect()
     }
 
     fn curve(&self, of: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
@@ -116,6 +116,10 @@ impl Recipe for Crush {
             .with("lower_force", "N", tables.column("lower", "fz")?.iter().map(|f| -f).collect())
             .with("stress", "Pa", force.iter().map(|f| f / (height * height)).collect());
         tables.finish(curve, &times)
+    }
+
+    fn peak(&self) -> Option<&'static str> {
+        Some("force")
     }
 
     fn values(&self, of: &Context, curve: &Curve) -> Vec<Value> {

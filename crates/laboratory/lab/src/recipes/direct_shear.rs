@@ -10,9 +10,10 @@
 //! Plates at the height of the shear plane carry the grains of the half that overhangs, and close the other one. A is the area at the
 //! start (ASTM D3080). The sides are smooth, floor and lid rough.
 
-use super::boxes::{height, press};
+use super::boxes::{around, height, press, upright};
 use super::*;
 use crate::composing::walls::{PLATE, SIDE};
+use crate::request::BAND;
 use crate::series::{at, peak, reaches, slope};
 
 pub struct DirectShear;
@@ -95,7 +96,7 @@ impl Recipe for DirectShear {
 
     fn tables(&self, of: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
         let walls = ["floor", "lid", "lower", "upper"].map(|name| (name, force_on(name)));
-        walls.into_iter().chain(common(of.sample)).collect()
+        walls.into_iter().chain(cracks(of.sample)).collect()
     }
 
     fn curve(&self, of: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
@@ -114,6 +115,25 @@ impl Recipe for DirectShear {
             .with("lid_stress", "Pa", lid)
             .with("rise", "m", tables.column("lid", "shift_z")?);
         tables.finish(curve, &times)
+    }
+
+    fn room(&self, of: &Context, prepared: &Prepared, tables: &Tables) -> Result<Option<Room>> {
+        let height = height(of, prepared);
+        let heights = tables.column("lid", "shift_z")?.iter().map(|rise| height + rise).collect();
+        Ok(Some(upright(of, heights)))
+    }
+
+    fn measured(&self, of: &Context) -> Option<(String, Option<f64>)> {
+        Some(around(of))
+    }
+
+    fn sheared(&self, of: &Context, curve: &Curve) -> Option<Vec<f64>> {
+        let band = of.specimen.height.min(BAND * of.sample.grains.diameter);
+        Some(curve.column("displacement").iter().map(|way| way / band).collect())
+    }
+
+    fn peak(&self) -> Option<&'static str> {
+        Some("shear_stress")
     }
 
     fn values(&self, _: &Context, curve: &Curve) -> Vec<Value> {

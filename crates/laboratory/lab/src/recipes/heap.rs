@@ -8,6 +8,7 @@
 //! The plate limits the heap, so it does not run out flat: its flank is that of a heap that grains run down. What falls off lies on a floor below. The
 //! heap is measured in eight sectors (docs/how-to/measure.md, heap angle) when the grains have come to rest.
 
+use super::sectors::{of_sectors, sectors};
 use super::*;
 use crate::composing::walls::PLATE;
 use std::f64::consts::PI;

@@ -11,6 +11,7 @@ mod list;
 mod oedometer;
 mod plates;
 mod repose;
+mod sectors;
 mod text;
 mod triaxial;
 mod triaxial_periodic;
@@ -19,6 +20,7 @@ mod uniaxial;
 pub use list::{ALL, find};
 
 use crate::composing::compose::number;
+use crate::curves::room::Room;
 use crate::error::{LabError, Result};
 use crate::request::{Request, Specimen};
 use crate::running::chain::Chain;
@@ -189,6 +191,34 @@ pub trait Recipe: Sync {
     /// Tables without the columns.
     fn curve(&self, of: &Context, prepared: &Prepared, tables: &Tables) -> Result<Curve>;
 
+    /// Size of the specimen in each row of the curve; `None`: no walls bound it.
+    ///
+    /// # Errors
+    /// Tables without the columns.
+    fn room(&self, _: &Context, _: &Prepared, _: &Tables) -> Result<Option<Room>> {
+        Ok(None)
+    }
+
+    /// The SHAPE that holds all contacts of a bounded specimen, and its volume [m³]; without volume: that of the specimen. `None`: no walls bound it.
+    fn measured(&self, _: &Context) -> Option<(String, Option<f64>)> {
+        None
+    }
+
+    /// How far the specimen is sheared in each row [–]: axial strain, or displacement over the band that shears. `None`: the test does not tell.
+    fn sheared(&self, _: &Context, _: &Curve) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// Column of the curve whose largest value is the peak of the test.
+    fn peak(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Grains of a specimen, where neither number nor size is given.
+    fn grains(&self) -> u64 {
+        GRAINS
+    }
+
     /// What the curve comes to.
     fn values(&self, of: &Context, curve: &Curve) -> Vec<Value>;
 
@@ -214,6 +244,9 @@ pub enum Envelope {
     /// q/2 = c cos φ + (σ1 + σ3)/2 sin φ, of the tops of Mohr's circles.
     Circles,
 }
+
+/// Grains of a specimen whose size is not given.
+const GRAINS: u64 = 2000;
 
 /// Rows of a curve, where the user does not say.
 pub const ROWS: u64 = 200;
@@ -243,38 +276,14 @@ fn one_length(test: &str, request: &Request) -> Result<()> {
     }
 }
 
-/// Angle of a heap by sectors, as a curve.
-fn sectors(tables: &Tables) -> Result<Curve> {
-    let angles = tables.column("repose", "angle")?;
-    Ok(Curve::default()
-        .with("sector", "", (0..angles.len()).map(|k| k as f64).collect())
-        .with("angle", "deg", angles)
-        .with("angle_low", "deg", tables.column("repose", "angle_low")?)
-        .with("angle_high", "deg", tables.column("repose", "angle_high")?))
-}
-
-/// What the angles of the sectors come to.
-fn of_sectors(curve: &Curve) -> Vec<Value> {
-    let angles: Vec<f64> = curve.column("angle").iter().copied().filter(|a| !a.is_nan()).collect();
-    let mean = measure::statistics::Mean::of(&angles);
-    vec![
-        Value { name: "angle", unit: "deg", value: mean.mean },
-        Value { name: "interval_over_sectors", unit: "deg", value: mean.interval },
-    ]
-}
-
 /// Forces on one wall, and how far it has moved.
 fn force_on(wall: &str) -> Vec<String> {
     ["--wall-force", "all", "--instants", "--wall", wall].map(str::to_owned).to_vec()
 }
 
-/// Tables of every test of grains: coordination, and cracks where there are bonds.
-fn common(sample: &Sample) -> Vec<(&'static str, Vec<String>)> {
-    let mut list = vec![("contacts", vec!["--contacts".to_owned()])];
-    if sample.has("bond") {
-        list.push(("cracks", vec!["--cracks".to_owned()]));
-    }
-    list
+/// Cracks, where there are bonds.
+fn cracks(sample: &Sample) -> Vec<(&'static str, Vec<String>)> {
+    if sample.has("bond") { vec![("cracks", vec!["--cracks".to_owned()])] } else { Vec::new() }
 }
 
 impl Tables {
@@ -292,9 +301,8 @@ impl Tables {
         Ok((0..all[0].len()).map(|row| all.iter().map(|values| values[row]).sum()).collect())
     }
 
-    /// Adds what every curve has.
+    /// Adds the number of cracks, where there are bonds.
     fn finish(&self, curve: Curve, times: &[f64]) -> Result<Curve> {
-        let curve = curve.with("coordination", "", self.column("contacts", "coordination")?);
         if !self.0.contains_key("cracks") {
             return Ok(curve);
         }

@@ -5,7 +5,7 @@
 //! ```
 //! V_s is the volume of the solid. The sides are smooth; strains refer to the specimen under the first stress.
 
-use super::boxes::{height, press, sides};
+use super::boxes::{around, height, press, sides, upright};
 use super::*;
 use crate::composing::walls::PLATE;
 
@@ -25,6 +25,12 @@ fn times(of: &Context) -> Vec<f64> {
             Some(*sum)
         }))
         .collect()
+}
+
+/// Heights of the specimen in each row [m].
+fn heights(of: &Context, prepared: &Prepared, tables: &Tables) -> Result<Vec<f64>> {
+    let start = height(of, prepared);
+    Ok(tables.column("lid", "shift_z")?.iter().map(|shift| start + shift).collect())
 }
 
 impl Recipe for Oedometer {
@@ -92,18 +98,14 @@ impl Recipe for Oedometer {
 
     fn tables(&self, of: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
         let walls = ["lid", "right", "back"].map(|name| (name, force_on(name)));
-        walls.into_iter().chain(common(of.sample)).collect()
+        walls.into_iter().chain(cracks(of.sample)).collect()
     }
 
     fn curve(&self, of: &Context, prepared: &Prepared, tables: &Tables) -> Result<Curve> {
         let start = height(of, prepared);
-        let ([x, y], grains) = (of.specimen.sides(), &of.sample.grains);
-        let solid = match (&grains.packed, of.specimen.mass) {
-            (Some(packed), _) => packed.solid,
-            (None, mass) => mass.unwrap_or(0.0) / grains.density,
-        };
+        let [x, y] = of.specimen.sides();
         let times = tables.column("lid", "time")?;
-        let heights: Vec<f64> = tables.column("lid", "shift_z")?.iter().map(|shift| start + shift).collect();
+        let heights = heights(of, prepared, tables)?;
         let over = |force: Vec<f64>, side: f64| {
             force.into_iter().zip(&heights).map(|(f, h)| f / (side * h)).collect::<Vec<f64>>()
         };
@@ -112,9 +114,29 @@ impl Recipe for Oedometer {
             .with("time", "s", times.clone())
             .with("stress", "Pa", tables.column("lid", "fz")?.iter().map(|f| f / (x * y)).collect())
             .with("strain", "", heights.iter().map(|h| 1.0 - h / start).collect())
-            .with("void_ratio", "", heights.iter().map(|h| x * y * h / solid - 1.0).collect())
             .with("lateral_stress", "Pa", right.iter().zip(&back).map(|(a, b)| 0.5 * (a + b)).collect());
         tables.finish(curve, &times)
+    }
+
+    fn room(&self, of: &Context, prepared: &Prepared, tables: &Tables) -> Result<Option<Room>> {
+        Ok(Some(upright(of, heights(of, prepared, tables)?)))
+    }
+
+    fn measured(&self, of: &Context) -> Option<(String, Option<f64>)> {
+        Some(around(of))
+    }
+
+    fn sheared(&self, _: &Context, curve: &Curve) -> Option<Vec<f64>> {
+        Some(curve.column("strain").to_vec())
+    }
+
+    fn peak(&self) -> Option<&'static str> {
+        Some("stress")
+    }
+
+    fn grains(&self) -> u64 {
+        // More than ten of them high.
+        5000
     }
 
     fn values(&self, of: &Context, curve: &Curve) -> Vec<Value> {

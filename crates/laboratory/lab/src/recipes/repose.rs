@@ -3,6 +3,7 @@
 //! The cylinder is a tube without bottom. It is lifted slowly against the speed at which grains fall over its radius, and the heap is measured in eight
 //! sectors (docs/how-to/measure.md, heap angle) when the grains have come to rest.
 
+use super::sectors::{of_sectors, sectors};
 use super::*;
 use crate::composing::walls::{PLATE, SIDE};
 use std::f64::consts::PI;

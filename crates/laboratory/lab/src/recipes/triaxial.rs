@@ -7,7 +7,7 @@
 //! Stresses are forces over the areas as they are; strains refer to the specimen under σ₃ on all sides. All walls are smooth, so that the specimen
 //! stays a box.
 
-use super::boxes::settling;
+use super::boxes::{around, settling};
 use super::*;
 use crate::composing::walls::SIDE;
 use crate::series::{at, peak, reaches, slope};
@@ -38,6 +38,17 @@ fn lengths(of: &Context, prepared: &Prepared) -> Vec3 {
         lengths[axis] += prepared.shifts.get(name).map_or(0.0, |shift| shift[axis]);
     }
     lengths
+}
+
+/// The same in each row [m].
+fn sides(of: &Context, prepared: &Prepared, tables: &Tables) -> Result<[Vec<f64>; 3]> {
+    let start = lengths(of, prepared);
+    let mut sides = [const { Vec::new() }; 3];
+    for (name, axis, _) in MOVING {
+        let shifts = tables.column(name, ["shift_x", "shift_y", "shift_z"][axis])?;
+        sides[axis] = shifts.iter().map(|shift| start[axis] + shift).collect();
+    }
+    Ok(sides)
 }
 
 /// Speed limit of the sides over that of the lid while the lid presses the loose grains together [–].
@@ -100,19 +111,16 @@ impl Recipe for Triaxial {
 
     fn tables(&self, of: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
         let walls = MOVING.map(|(name, ..)| (name, force_on(name)));
-        walls.into_iter().chain(common(of.sample)).collect()
+        walls.into_iter().chain(cracks(of.sample)).collect()
     }
 
     fn curve(&self, of: &Context, prepared: &Prepared, tables: &Tables) -> Result<Curve> {
         let start = lengths(of, prepared);
         let times = tables.column("lid", "time")?;
-        let mut sides = Vec::new();
+        let sides = sides(of, prepared, tables)?;
         let mut forces = Vec::new();
         for (name, axis, _) in MOVING {
-            let axis_name = ["x", "y", "z"][axis];
-            let shifts = tables.column(name, &format!("shift_{axis_name}"))?;
-            sides.push(shifts.iter().map(|shift| start[axis] + shift).collect::<Vec<f64>>());
-            forces.push(tables.column(name, &format!("f{axis_name}"))?);
+            forces.push(tables.column(name, ["fx", "fy", "fz"][axis])?);
         }
         let rows = 0..times.len();
         let strain =
@@ -125,6 +133,22 @@ impl Recipe for Triaxial {
             rows.clone().map(|i| 1.0 - sides[0][i] * sides[1][i] * sides[2][i] / volume).collect();
         let curve = drawn(&times, [0, 1, 2].map(strain), volumetric, [0, 1, 2].map(stress));
         tables.finish(curve, &times)
+    }
+
+    fn room(&self, of: &Context, prepared: &Prepared, tables: &Tables) -> Result<Option<Room>> {
+        Ok(Some(Room::of_box(sides(of, prepared, tables)?)))
+    }
+
+    fn measured(&self, of: &Context) -> Option<(String, Option<f64>)> {
+        Some(around(of))
+    }
+
+    fn sheared(&self, _: &Context, curve: &Curve) -> Option<Vec<f64>> {
+        Some(curve.column("axial_strain").to_vec())
+    }
+
+    fn peak(&self) -> Option<&'static str> {
+        Some("deviator_stress")
     }
 
     fn values(&self, _: &Context, curve: &Curve) -> Vec<Value> {

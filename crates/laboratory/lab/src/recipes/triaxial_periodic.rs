@@ -89,7 +89,7 @@ impl Recipe for TriaxialPeriodic {
 
     fn tables(&self, of: &Context, _: &Prepared) -> Vec<(&'static str, Vec<String>)> {
         let domain = ("domain", vec!["--domain".to_owned()]);
-        std::iter::once(domain).chain(common(of.sample)).collect()
+        std::iter::once(domain).chain(cracks(of.sample)).collect()
     }
 
     fn curve(&self, _: &Context, _: &Prepared, tables: &Tables) -> Result<Curve> {
@@ -101,6 +101,23 @@ impl Recipe for TriaxialPeriodic {
         let stresses = [column("xx")?, column("yy")?, column("zz")?];
         let curve = drawn(&times, strains, share(column("volumetric_strain")?), stresses);
         tables.finish(curve, &times)
+    }
+
+    fn room(&self, _: &Context, _: &Prepared, tables: &Tables) -> Result<Option<Room>> {
+        let [x, y, z] = ["length_x", "length_y", "length_z"].map(|name| tables.column("domain", name));
+        Ok(Some(Room::of_box([x?, y?, z?])))
+    }
+
+    fn measured(&self, _: &Context) -> Option<(String, Option<f64>)> {
+        Some(("all".to_owned(), None))
+    }
+
+    fn sheared(&self, of: &Context, curve: &Curve) -> Option<Vec<f64>> {
+        Triaxial.sheared(of, curve)
+    }
+
+    fn peak(&self) -> Option<&'static str> {
+        Triaxial.peak()
     }
 
     fn values(&self, _: &Context, curve: &Curve) -> Vec<Value> {

@@ -8,7 +8,7 @@
 //! A filled specimen is a cylinder: grains without friction are pressed together in a round vessel, and bonded when the vessel is gone. A packed one is
 //! taken as it is; A is then the area of its outline from above.
 
-use super::boxes::{height, settling};
+use super::boxes::{around, height, settling};
 use super::plates::{on_the_way, uneven};
 use super::*;
 use crate::composing::walls::{PLATE, SIDE};
@@ -166,7 +166,7 @@ impl Recipe for Uniaxial {
         let middle = format!("box:-1e3,-1e3,{},1e3,1e3,{}", low + 0.25 * height, low + 0.75 * height);
         let strain = ["--strain", "--within", &middle].map(str::to_owned).to_vec();
         let walls = ["lower", "upper"].map(|name| (name, force_on(name)));
-        walls.into_iter().chain([("strain", strain)]).chain(common(of.sample)).collect()
+        walls.into_iter().chain([("strain", strain)]).chain(cracks(of.sample)).collect()
     }
 
     fn curve(&self, of: &Context, prepared: &Prepared, tables: &Tables) -> Result<Curve> {
@@ -191,6 +191,32 @@ impl Recipe for Uniaxial {
             .with("middle_axial_strain", "", tables.column("strain", "zz")?)
             .with("middle_lateral_strain", "", sideways);
         tables.finish(curve, &times)
+    }
+
+    /// Grains that break off widen the extent, so that the section is that at the start, strained as the grains in the middle half.
+    fn room(&self, of: &Context, prepared: &Prepared, tables: &Tables) -> Result<Option<Room>> {
+        let height = height(of, prepared);
+        let heights: Vec<f64> = tables.column("upper", "shift_z")?.iter().map(|way| height + way).collect();
+        let [x, y] = ["xx", "yy"].map(|name| tables.column("strain", name));
+        let [across_x, across_y] = of.specimen.sides();
+        let along = |side: f64, strain: &[f64]| strain.iter().map(|e| side * (1.0 - e)).collect::<Vec<f64>>();
+        let lengths = [along(across_x, &x?), along(across_y, &y?), heights];
+        let share = area(of) / (across_x * across_y);
+        let whole = Room::of_box(lengths);
+        let volume = whole.volume.iter().map(|v| v * share).collect();
+        Ok(Some(Room { volume, ..whole }))
+    }
+
+    fn measured(&self, of: &Context) -> Option<(String, Option<f64>)> {
+        Some(around(of))
+    }
+
+    fn sheared(&self, _: &Context, curve: &Curve) -> Option<Vec<f64>> {
+        Some(curve.column("strain").to_vec())
+    }
+
+    fn peak(&self) -> Option<&'static str> {
+        Some("stress")
     }
 
     fn values(&self, _: &Context, curve: &Curve) -> Vec<Value> {

@@ -8,6 +8,7 @@ use crate::running::chain::{Chain, Programs, SpecimenFolder, stamp};
 use crate::running::specimens::{SpecimenOutcome, Specimens};
 use crate::running::warnings::{broke, moves, not_at_rest, not_held, still_rises};
 use crate::sample::Sample;
+use crate::state;
 use crate::summary::{self, Summary};
 use geom::Vec3;
 use rayon::prelude::*;
@@ -59,7 +60,10 @@ impl Lab {
             )));
         }
         let (proportions, share) = recipe.proportions();
-        let specimen = Specimen::of(&sample, &request, (proportions, share), recipe.is_pressed_all_round())?;
+        let specimen = {
+            let usual = (proportions, share, recipe.grains());
+            Specimen::of(&sample, &request, usual, recipe.is_pressed_all_round())?
+        };
         let paths: Vec<Vec<f64>> = match kind {
             Stresses::Each => request.stress.iter().map(|stress| vec![*stress]).collect(),
             _ => vec![request.stress.clone()],
@@ -251,12 +255,16 @@ impl Lab {
             self.compose_test(&of, &part, preparation.is_some(), self.sample.compose_in(&chain.place.folder));
         let report = self.simulate("test", &scene, &part, chain)?;
         warnings.extend(not_held(&report));
-        let tables = chain.tables(&self.recipe.tables(&of, &prepared))?;
+        let named = [self.recipe.tables(&of, &prepared), state::tables(self.recipe, &of)].concat();
+        let tables = chain.tables(&named)?;
         let curve = self.recipe.curve(&of, &prepared, &tables)?;
+        let states = state::states(self.recipe, &of, &prepared, &tables, &curve)?;
+        let curve = state::joined(curve, &states);
+        let moments = Box::new(state::moments(self.recipe, &curve, &states));
         let values = self.recipe.values(&of, &curve);
         warnings.extend(still_rises(&curve));
         warnings.extend(self.recipe.warnings(&of, &curve));
-        Ok(SpecimenOutcome::Tested { curve, values, warnings })
+        Ok(SpecimenOutcome::Tested { curve, values, moments, warnings })
     }
 
     fn simulate(&self, name: &str, scene: &str, part: &Part, chain: &Chain) -> Result<Json> {

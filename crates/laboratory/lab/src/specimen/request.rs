@@ -28,8 +28,6 @@ pub struct Request {
     pub rows: u64,
 }
 
-/// Grains of a specimen whose size is not given.
-const GRAINS: u64 = 2000;
 /// Solid fraction that a filling comes to, about [–].
 pub(crate) const DENSE: f64 = 0.6;
 /// Solid fraction of the spheres around grains before they fall [–].
@@ -39,7 +37,7 @@ const MOST_GRAINS: f64 = 1e7;
 /// Inertial number of slow flow: below it friction no longer depends on the rate (GDR MiDi 2004, doi:10.1140/epje/i2003-10153-0) [–].
 pub(crate) const SLOW: f64 = 1e-3;
 /// Thickness of a shear band over the grain diameter [–].
-const BAND: f64 = 10.0;
+pub(crate) const BAND: f64 = 10.0;
 /// Way of a plate in one time step over the grain diameter, where no stress sets the rate [–].
 const WAY: f64 = 4e-5;
 /// Time between two rows over a time step, at least: the step of the test differs a little from that of its grains alone [–].
@@ -81,7 +79,7 @@ impl Specimen {
     pub(crate) fn of(
         sample: &Sample,
         request: &Request,
-        (proportions, share): ([f64; 3], f64),
+        (proportions, share, usual): ([f64; 3], f64, u64),
         all_round: bool,
     ) -> Result<Specimen> {
         let grains = &sample.grains;
@@ -100,7 +98,7 @@ impl Specimen {
         let [x, y, z] = match &request.size {
             Some(size) => lengths(size, proportions)?,
             None => {
-                let solid = grains.volume * request.grains.unwrap_or(GRAINS) as f64;
+                let solid = grains.volume * request.grains.unwrap_or(usual) as f64;
                 let unit = (solid / (DENSE * share * proportions.iter().product::<f64>())).cbrt();
                 proportions.map(|p| rounded(p * unit))
             }

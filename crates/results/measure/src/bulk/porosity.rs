@@ -33,8 +33,9 @@ pub struct Filling {
 /// # Errors
 /// A shape without end or without room.
 pub fn filling(frame: &Frame, region: &Region) -> Result<Filling, MeasureError> {
-    let volume = region.room()?;
     let periodic = &frame.periodic;
+    let region = region.within(periodic)?;
+    let volume = region.room()?;
     region.fits(periodic)?;
     let rows = frame.position.par_iter().zip(&frame.radius);
     let parts: Vec<_> = rows.map(|(p, r)| region.part_of_images(periodic, p, *r)).collect();
@@ -71,7 +72,7 @@ impl Porosity {
     /// # Errors
     /// A shape without end or without room.
     pub fn new(region: Region) -> Result<Porosity, MeasureError> {
-        region.room()?;
+        region.may_have_room()?;
         Ok(Porosity { region, last: None, most: 0, bounds: Default::default() })
     }
 }
@@ -158,6 +159,8 @@ mod tests {
             ("box:0,0,0,1,1,1", 1.0),
             ("box:-0.4,0.2,0.3,0.6,1.2,1.3", 1.0),
             ("box:-0.5,-0.5,-0.5,1.5,1.5,1.5", 8.0),
+            // The SHAPE `all`.
+            ("halfspace:0,0,-1e100,0,0,1", 1.0),
         ] {
             let found = filling(&frame, &Region::new(shape.parse().unwrap(), 0.0)).unwrap();
             assert!((found.solid / volume / right - 1.0).abs() < 1e-12, "{shape}: {found:?}");
@@ -167,5 +170,10 @@ mod tests {
         assert!((filling(&frame, &around).unwrap().solid / right - 1.0).abs() < 1e-12);
         let huge = Region::new("box:-50,-50,-50,50,50,50".parse().unwrap(), 0.0);
         assert!(matches!(filling(&frame, &huge), Err(MeasureError::Setting { .. })));
+        // Without a face along z everything has no end.
+        let all = Region::new("halfspace:0,0,-1e100,0,0,1".parse().unwrap(), 0.0);
+        let open = PeriodicBox { range: [Some((0.0, 1.0)), Some((0.0, 1.0)), None] };
+        let found = filling(&Frame { periodic: open, ..frame }, &all);
+        assert!(matches!(found, Err(MeasureError::EndlessDomain { axis: "z" })), "{found:?}");
     }
 }

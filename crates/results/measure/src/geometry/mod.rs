@@ -5,5 +5,6 @@ pub(crate) mod cells;
 pub(crate) mod chord;
 pub(crate) mod cubic;
 pub mod cylinder;
+pub mod extent;
 pub mod periodic;
 pub mod region;

@@ -8,9 +8,12 @@ use super::{ball, chord, cylinder};
 use crate::MeasureError;
 use crate::periodic::{MOST_IMAGES, PeriodicBox};
 use geom::{Shape, Vec3, shape::Solid};
+use std::borrow::Cow;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
+/// A half space that begins below this [m] along each axis of its normal is everything: the SHAPE `all`.
+const EVERYWHERE: f64 = -1e99;
 const INNER: usize = 1000;
 const OUTER: usize = 64;
 
@@ -56,6 +59,37 @@ impl Region {
             v if v > 0.0 => Ok(v),
             volume => Err(MeasureError::EmptyShape { volume }),
         }
+    }
+
+    /// Whether it is everything.
+    fn is_everything(&self) -> bool {
+        match &self.shape.solid {
+            Solid::Halfspace(plane) => !self.shape.outside && plane.point.dot(&plane.normal) < EVERYWHERE,
+            _ => false,
+        }
+    }
+
+    /// Refuses a region that has no volume in any run.
+    ///
+    /// # Errors
+    /// No end, no room. Everything may have a volume: that of a periodic domain.
+    pub fn may_have_room(&self) -> Result<(), MeasureError> {
+        if self.is_everything() { Ok(()) } else { self.room().map(|_| ()) }
+    }
+
+    /// The region in a frame: of everything the whole domain, which is periodic along all axes.
+    ///
+    /// # Errors
+    /// Everything in a domain that has no end along an axis.
+    pub fn within(&self, periodic: &PeriodicBox) -> Result<Cow<'_, Region>, MeasureError> {
+        if !self.is_everything() {
+            return Ok(Cow::Borrowed(self));
+        }
+        if let Some(axis) = periodic.range.iter().position(Option::is_none) {
+            return Err(MeasureError::EndlessDomain { axis: ["x", "y", "z"][axis] });
+        }
+        let (low, high) = periodic.corners();
+        Ok(Cow::Owned(Region::new(Shape { solid: Solid::Box(low, high), ..self.shape.clone() }, f64::NAN)))
     }
 
     /// How much of a ball and its images in a periodic box lies in the region, which has an end.

@@ -6,16 +6,16 @@
 //!
 //! with C contacts between N grains (a rigid clump is one), N₀ of which touch nothing and N₁ one grain: Z_m, without those rattlers, is the
 //! mechanical coordination number of Thornton (2000), Géotechnique 50(1), DOI 10.1680/geot.2000.50.1.43. Contacts are
-//! those of the run if it holds them; walls then count in separate numbers. Otherwise two grains touch if their
+//! those of the run if it holds them, with whole bonds; walls then count in separate numbers. Otherwise two grains touch if their
 //! distance is less than the sum of their radii, which is exact for every law whose forces end there, and walls are
 //! unknown.
 
 use crate::definition::{AskError, Asked, Frames, Measure};
 use crate::observer::{NO_FRAMES, Observer};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
-use crate::{Contacts, Frame, MeasureError, Partner, Run, RunMessage};
+use crate::{Bonds, Contacts, Frame, MeasureError, Partner, Run, RunMessage};
 use geom::Vec3;
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap};
 
 /// Contact numbers of one frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,48 +27,24 @@ pub struct Coordination {
 }
 
 impl Coordination {
-    /// From positions and radii, with the shortest ways of a periodic box.
-    pub fn of_frame(frame: &Frame) -> Coordination {
-        let (of, count) = numbered(frame);
-        let mut of_grains = vec![0; count];
-        let pairs = touching(frame).into_iter().map(|(a, b)| (of[a].min(of[b]), of[a].max(of[b])));
-        let pairs: BTreeSet<(usize, usize)> = pairs.filter(|(a, b)| a != b).collect();
-        for (a, b) in pairs {
-            of_grains[a] += 1;
-            of_grains[b] += 1;
-        }
+    /// From positions and radii, with the shortest ways of a periodic box, and from whole bonds.
+    pub fn of_frame(frame: &Frame, bonds: Option<&Bonds>) -> Coordination {
+        let touch = touching(frame).into_iter().map(|(a, b)| (frame.id[a], frame.id[b]));
+        let (of_grains, _) = counted(frame, touch.chain(whole(bonds)), std::iter::empty());
         Coordination { of_grains, of_walls: None }
     }
 
-    /// From contacts that the run recorded; several contacts of the same two (faces of a mesh) count once.
-    pub fn of_contacts(frame: &Frame, contacts: &Contacts) -> Coordination {
-        let (of, count) = numbered(frame);
-        let bodies: HashMap<u64, u64> = frame.id.iter().copied().zip(frame.body()).collect();
-        let body = |id: u64| bodies.get(&id).copied().unwrap_or(id);
-        let rows: HashMap<u64, usize> = frame.body().into_iter().zip(of).collect();
-        let (mut of_grains, mut of_walls) = (vec![0; count], vec![0; count]);
-        let mut seen = HashSet::new();
-        for contact in contacts.acting() {
-            let i = body(contact.grain);
-            let (i, wall, j) = match contact.partner {
-                Partner::Grain(j) => (i.min(body(j)), false, i.max(body(j))),
-                Partner::Wall(j) => (i, true, j),
-            };
-            if (i == j && !wall) || !seen.insert((i, wall, j)) {
-                continue;
-            }
-            let add = |counts: &mut Vec<u32>, id: u64| {
-                if let Some(row) = rows.get(&id) {
-                    counts[*row] += 1;
-                }
-            };
-            if wall {
-                add(&mut of_walls, i);
-            } else {
-                add(&mut of_grains, i);
-                add(&mut of_grains, j);
-            }
-        }
+    /// From contacts that the run recorded, and from whole bonds.
+    pub fn of_contacts(frame: &Frame, contacts: &Contacts, bonds: Option<&Bonds>) -> Coordination {
+        let pairs = contacts.acting().filter_map(|contact| match contact.partner {
+            Partner::Grain(other) => Some((contact.grain, other)),
+            Partner::Wall(_) => None,
+        });
+        let walls = contacts.acting().filter_map(|contact| match contact.partner {
+            Partner::Wall(wall) => Some((contact.grain, wall)),
+            Partner::Grain(_) => None,
+        });
+        let (of_grains, of_walls) = counted(frame, pairs.chain(whole(bonds)), walls);
         Coordination { of_grains, of_walls: Some(of_walls) }
     }
 
@@ -113,6 +89,44 @@ impl Coordination {
         let sum: f64 = all.iter().filter(|n| **n >= 2).map(|n| f64::from(*n)).sum();
         (sum / bearing, 1.0 - bearing / all.len() as f64)
     }
+}
+
+/// Ids of both grains of bonds that hold.
+fn whole(bonds: Option<&Bonds>) -> impl Iterator<Item = (u64, u64)> {
+    let rows = bonds.into_iter().flat_map(|b| &b.rows).filter(|bond| bond.broken.is_none());
+    rows.map(|bond| (bond.grains[0], bond.grains[1]))
+}
+
+/// Partners of each grain among grains and among walls, from pairs of ids of spheres, and of spheres and walls. Several contacts of the same two (faces of a mesh,
+/// members of clumps, a contact and a bond) count once.
+fn counted(
+    frame: &Frame,
+    pairs: impl Iterator<Item = (u64, u64)>,
+    walls: impl Iterator<Item = (u64, u64)>,
+) -> (Vec<u32>, Vec<u32>) {
+    let (of, count) = numbered(frame);
+    let rows: HashMap<u64, usize> = frame.id.iter().copied().zip(of).collect();
+    let mut partners = vec![BTreeSet::new(); count];
+    let mut touched = vec![BTreeSet::new(); count];
+    for (a, b) in pairs {
+        // A partner that is not in the frame counts, too: it may have been left out by a filter.
+        let (i, j) = (rows.get(&a).copied(), rows.get(&b).copied());
+        let name = |row: Option<usize>, id: u64| row.map_or((1, id), |row| (0, row as u64));
+        if name(i, a) != name(j, b) {
+            for (row, partner) in [(i, name(j, b)), (j, name(i, a))] {
+                if let Some(row) = row {
+                    partners[row].insert(partner);
+                }
+            }
+        }
+    }
+    for (grain, wall) in walls {
+        if let Some(row) = rows.get(&grain) {
+            touched[*row].insert(wall);
+        }
+    }
+    let count = |sets: Vec<BTreeSet<_>>| sets.iter().map(|set| set.len() as u32).collect();
+    (count(partners), touched.iter().map(|set: &BTreeSet<u64>| set.len() as u32).collect())
 }
 
 /// Number of the grain of each row, and how many there are: a rigid clump is one.
@@ -170,9 +184,10 @@ const FEW: MeasureError = MeasureError::FewGrains { what: "a contact number", mo
 /// Measures contact numbers over time.
 #[derive(Default)]
 pub struct ContactNumbers {
-    /// A frame whose contacts may still come.
-    waiting: Option<Frame>,
-    early: Option<Contacts>,
+    /// What has come of the present time.
+    frame: Option<Frame>,
+    contacts: Option<Contacts>,
+    bonds: Option<Bonds>,
     recorded: bool,
     last: Option<(Coordination, f64)>,
     /// Most grains of a frame.
@@ -180,22 +195,19 @@ pub struct ContactNumbers {
 }
 
 impl ContactNumbers {
-    fn count(&mut self, frame: &Frame, contacts: Option<&Contacts>, rows: &mut Vec<Row>) {
-        let c = match contacts {
-            Some(contacts) => Coordination::of_contacts(frame, contacts),
-            None => Coordination::of_frame(frame),
+    /// What has come of another time than this one is complete.
+    fn settle(&mut self, now: Option<f64>, rows: &mut Vec<Row>) {
+        let Some(frame) = self.frame.take_if(|frame| Some(frame.time) != now) else { return };
+        let contacts = self.contacts.take().filter(|c| c.time == frame.time);
+        let bonds = self.bonds.take().filter(|b| b.time == frame.time);
+        let c = match &contacts {
+            Some(contacts) => Coordination::of_contacts(&frame, contacts, bonds.as_ref()),
+            None => Coordination::of_frame(&frame, bonds.as_ref()),
         };
         self.recorded |= contacts.is_some();
-        rows.push(row(frame, &c));
+        rows.push(row(&frame, &c));
         self.grains = self.grains.max(frame.len());
         self.last = Some((c, frame.time));
-    }
-
-    /// The frame that waits is measured.
-    fn settle(&mut self, contacts: Option<&Contacts>, rows: &mut Vec<Row>) {
-        if let Some(frame) = self.waiting.take() {
-            self.count(&frame, contacts, rows);
-        }
     }
 }
 
@@ -222,23 +234,17 @@ impl Observer for ContactNumbers {
     }
 
     fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        let time = match &message {
+            RunMessage::Frame(frame) => frame.time,
+            RunMessage::Contacts(contacts) => contacts.time,
+            RunMessage::Bonds(bonds) => bonds.time,
+            _ => return Ok(()),
+        };
+        self.settle(Some(time), rows);
         match message {
-            RunMessage::Frame(frame) => {
-                self.settle(None, rows);
-                // Contacts may also come before their frame.
-                let own = self.early.take().filter(|c| c.time == frame.time);
-                self.waiting = Some(frame);
-                if own.is_some() {
-                    self.settle(own.as_ref(), rows);
-                }
-            }
-            RunMessage::Contacts(contacts) => {
-                if self.waiting.as_ref().is_some_and(|f| f.time == contacts.time) {
-                    self.settle(Some(&contacts), rows);
-                } else {
-                    self.early = Some(contacts);
-                }
-            }
+            RunMessage::Frame(frame) => self.frame = Some(frame),
+            RunMessage::Contacts(contacts) => self.contacts = Some(contacts),
+            RunMessage::Bonds(bonds) => self.bonds = Some(bonds),
             _ => {}
         }
         Ok(())
@@ -284,5 +290,56 @@ impl Measure for ContactNumbers {
 
     fn observer(_: &Asked) -> Result<Box<dyn Observer>, AskError> {
         Ok(Box::<ContactNumbers>::default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Contact;
+    use crate::bonds::{Bond, Break};
+
+    /// A row of three grains: the first two overlap, the others are bonded and apart; a broken bond does not count.
+    #[test]
+    fn bonds_count_alike_with_and_without_recorded_contacts() {
+        let frame = Frame {
+            id: vec![5, 6, 7],
+            position: [0.0, 0.19, 0.395].map(|x| Vec3::new(x, 0.0, 0.0)).to_vec(),
+            velocity: vec![Vec3::zeros(); 3],
+            radius: vec![0.1; 3],
+            material: vec![0; 3],
+            mass: vec![1.0; 3],
+            ..Frame::default()
+        };
+        let bond = |a: u64, b: u64, broken: Option<f64>| Bond {
+            grains: [a, b],
+            force: Vec3::x(),
+            stress: [0.0; 2],
+            broken,
+            by: Break::Unknown,
+        };
+        let bonds =
+            Bonds { time: 0.0, rows: vec![bond(5, 6, None), bond(6, 7, None), bond(5, 7, Some(0.1))] };
+        let touch = Contact {
+            grain: 5,
+            partner: Partner::Grain(6),
+            point: Vec3::zeros(),
+            normal: Vec3::x(),
+            force: Vec3::x(),
+            work: 0.0,
+            overlap: 0.01,
+        };
+        let measured = |recorded: bool| {
+            let (mut numbers, run, mut rows) = (ContactNumbers::default(), Run::default(), Vec::new());
+            let mut messages = vec![RunMessage::Frame(frame.clone()), RunMessage::Bonds(bonds.clone())];
+            if recorded {
+                let rows = vec![touch.clone()];
+                messages.push(RunMessage::Contacts(Contacts { time: 0.0, rows }));
+            }
+            messages.into_iter().for_each(|m| numbers.observe(&run, m, &mut rows).unwrap());
+            numbers.end(&run, &mut rows).unwrap();
+            numbers.last.unwrap().0.of_grains
+        };
+        assert_eq!((measured(false), measured(true)), (vec![1, 2, 1], vec![1, 2, 1]));
     }
 }

@@ -3,6 +3,7 @@
 pub mod coordination;
 pub mod domain;
 pub mod energy;
+pub mod fabric;
 pub mod forces;
 pub mod plane_force;
 pub mod settling;

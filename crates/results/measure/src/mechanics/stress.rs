@@ -57,7 +57,7 @@ impl Stress {
     /// # Errors
     /// A shape without end or without room.
     pub fn new(region: Region) -> Result<Stress, MeasureError> {
-        region.room()?;
+        region.may_have_room()?;
         Ok(Stress { region, frame: None, contacts: None, bonds: None, last: None })
     }
 
@@ -84,14 +84,15 @@ impl Stress {
         contacts: &Contacts,
         bonds: Option<&Bonds>,
     ) -> Result<Matrix3<f64>, MeasureError> {
-        self.region.fits(&frame.periodic)?;
+        let region = self.region.within(&frame.periodic)?;
+        region.fits(&frame.periodic)?;
         let members = Member::of_frame(frame);
         let member = |id: &u64| members.get(id).copied();
         let mut sum = Matrix3::zeros();
         let mut add = |from: Member, to: Member, force: Vec3| {
             let start = from.centre - from.arm;
             let branch = from.arm + frame.periodic.way(&from.centre, &to.centre) - to.arm;
-            sum += force * branch.transpose() * self.region.share(&frame.periodic, &start, &branch);
+            sum += force * branch.transpose() * region.share(&frame.periodic, &start, &branch);
         };
         for contact in contacts.acting() {
             let from = match &contact.partner {
@@ -104,7 +105,7 @@ impl Stress {
             let [to, from] = bond.grains.each_ref().map(member);
             from.zip(to).into_iter().for_each(|(from, to)| add(from, to, bond.force));
         }
-        Ok((sum + sum.transpose()) * (0.5 / self.region.volume))
+        Ok((sum + sum.transpose()) * (0.5 / region.volume))
     }
 }
 
@@ -251,6 +252,8 @@ mod tests {
             ("box:0,0,0,1,1,1", 0.15, 1.0),
             ("box:-0.5,-0.5,-0.5,0.5,0.5,0.5", 0.15, 1.0),
             ("box:0,0,0,2,2,2", 8.0 * 0.15, 8.0),
+            // The SHAPE `all`.
+            ("halfspace:0,0,-1e100,0,0,1", 0.15, 1.0),
             ("box:0.9,0.4,0.4,1,0.6,0.6", 0.1, 0.004),
             ("box:-0.1,0.4,0.4,0.01,0.6,0.6", 0.11, 0.11 * 0.04),
         ] {
