@@ -333,7 +333,7 @@ mod tests {
             let (mut numbers, run, mut rows) = (ContactNumbers::default(), Run::default(), Vec::new());
             let mut messages = vec![RunMessage::Frame(frame.clone()), RunMessage::Bonds(bonds.clone())];
             if recorded {
-                let rows = vec![touch.clone()];
+                let rows = vec![touch];
                 messages.push(RunMessage::Contacts(Contacts { time: 0.0, rows }));
             }
             messages.into_iter().for_each(|m| numbers.observe(&run, m, &mut rows).unwrap());

@@ -105,7 +105,7 @@ mod tests {
         let wanted = 0.8;
         let mut normals = Vec::new();
         while normals.len() < 60_000 {
-            let (z, turn) = (2.0 * unit(&mut random) - 1.0, 6.283_185_307_179_586 * unit(&mut random));
+            let (z, turn) = (2.0 * unit(&mut random) - 1.0, std::f64::consts::TAU * unit(&mut random));
             let density = 1.0 + wanted * 0.5 * (3.0 * z * z - 1.0);
             if unit(&mut random) * 2.0 < density {
                 let r = (1.0 - z * z).sqrt();
