@@ -29,8 +29,8 @@ pub enum LabError {
     #[error("{program}: cannot be started: install it beside lab-test")]
     Start { program: String, source: std::io::Error },
     /// A program that failed, with its last line.
-    #[error("{specimen}: {program} failed with exit code {code}: {words}")]
-    Program { specimen: String, program: String, code: i32, words: String },
+    #[error("{specimen}: {program} {how}: {words}")]
+    Program { specimen: String, program: String, how: String, words: String },
     /// A guard has stopped the run of a specimen.
     #[error("{run}: stopped by a guard at {reached}: {why}")]
     Stopped { run: String, reached: String, why: String, cause: StopCause },
