@@ -2,7 +2,7 @@
 # Fuzzes every parser: RUNS inputs for each of TARGETS, made from small valid files of every format. A target ends at the first input that makes it
 # panic, take more than 10 s, or take more than 1 GB. Needs a nightly compiler and cargo-fuzz; prints how many inputs each target really got.
 set -uo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/.." || exit 1
 runs=${RUNS:-1000000}
 targets=${TARGETS:-$(cargo +nightly fuzz list)}
 out=pipelines/out/fuzz

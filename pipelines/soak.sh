@@ -8,7 +8,7 @@
 #   pressed   ten million steps of grains pressed together at 0.95 of the critical step
 #   turning   a million turns of a loaded grain; each for every normal law
 set -uo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/.." || exit 1
 out=pipelines/out/soak
 mkdir -p "$out"
 export GRAINPIPE_KILLS=${KILLS:-200}

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Runs all tests and ends with their sum: N passed, N failed, N skipped (a test whose optional program is missing).
 set -uo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/.." || exit 1
 logs=$(mktemp -d)
 trap 'rm -rf "$logs"' EXIT
 export LOGS=$logs GRAINPIPE_SKIPS=$logs/skips

@@ -10,7 +10,7 @@ out=$(cd "$3" && pwd)
 hull() {
   local name=$1 words=$2 table=$3
   shift 3
-  rm -rf "$out/$name"
+  rm -rf "${out:?}/$name"
   mkdir "$out/$name"
   for pattern in "$@"; do ln -s "$out"/*/photographs/$pattern "$out/$name"; done
   stone-hull "$out/$name" --masks "$out/masks" --turntable "$table" --cells 150 -q -o "$out/$name.ply"

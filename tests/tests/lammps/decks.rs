@@ -124,6 +124,23 @@ fn everything_that_lammps_lacks_is_refused_by_name() {
     }
 }
 
+/// What the engine refuses has its place in the scene, as with dem-run.
+#[test]
+fn errors_of_the_setup_name_their_place() {
+    let long = text().replace("[time]", "[time]\ndt = 1");
+    let line = 1 + long.lines().position(|line| line == "dt = 1").unwrap();
+    let folder = folder(&[("s.toml", text()), ("long.toml", long)]);
+    for (words, place) in [
+        (&["long.toml"][..], format!("long.toml:{line}:6")),
+        (&["s.toml", "--set", "time.dt=1"], "s.toml with --set time.dt=1".to_owned()),
+    ] {
+        for program in ["dem-lammps", "dem-run"] {
+            let said = tool(folder.path(), program, &[words, &["--check"]].concat()).stderr;
+            assert!(said.contains(&format!("{program}: {place}: time.dt: 1")), "{said}");
+        }
+    }
+}
+
 /// With `--nearest` what can be replaced is, with a warning for each.
 #[test]
 fn the_nearest_is_taken_when_it_is_asked_for() {

@@ -1,5 +1,6 @@
 //! The shape of the code: the engine's imports go down its layers, and files stay small enough to read.
 
+mod features;
 mod imports;
 
 use grainpipe_tests::tree::{packages, root, sources};

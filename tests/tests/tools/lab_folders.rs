@@ -1,9 +1,10 @@
 //! Folders of lab-test that several processes share, and specimens that others make.
 
-use grainpipe_tests::lab::SAND;
+use grainpipe_tests::lab::{ROCK, SAND, cube};
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{line, program, succeed, tool};
 use std::fs;
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -105,5 +106,27 @@ fn a_specimen_that_was_stopped_goes_on_where_it_was() {
         let resumed = format!("-o {run}.mcap --resume {run}.stopped.mcap --whole");
         assert_eq!(made.matches(&resumed).count(), 1, "{made}");
         assert!(!path.join(format!("d/stress=1000,seed=0/{run}.stopped.mcap")).exists());
+    }
+}
+
+/// A program that the user's signal has ended before lab-test has noticed its own is no failure; one that something else has killed is, and the message says so.
+#[test]
+fn a_program_that_a_signal_ended_is_told_from_one_that_was_killed() {
+    let lab = folder(&[("stone.toml", ROCK.to_owned()), ("stone.csv", cube())]);
+    let path = lab.path();
+    for name in ["lab-test", "dem-measure"] {
+        fs::copy(program(name), path.join(name)).unwrap();
+    }
+    for (signal, code, words) in [
+        ("TERM", 3, "stopped by a signal: 0 of 1 specimens are finished"),
+        ("INT", 3, "stopped by a signal: 0 of 1 specimens are finished"),
+        ("HUP", 3, "stopped by a signal: 0 of 1 specimens are finished"),
+        ("KILL", 1, "dem-run was killed by signal 9: it gave no reason; is there too little memory?"),
+    ] {
+        fs::write(path.join("dem-run"), format!("#!/bin/sh\nkill -{signal} $$\n")).unwrap();
+        fs::set_permissions(path.join("dem-run"), fs::Permissions::from_mode(0o755)).unwrap();
+        let done = line(path, "./lab-test crush stone.toml --strain 2% --speed 0.2 -q -o out.csv");
+        assert!(done.code == code && done.stderr.contains(words), "{signal}: {}: {}", done.code, done.stderr);
+        assert!(!path.join("out.csv").exists(), "{signal}");
     }
 }

@@ -57,6 +57,6 @@ pub use placing::{Placing, read_mesh};
 pub use progress::Progress;
 pub use report::Report;
 pub use run::{Common, Seed, run};
-pub use signals::{stop_in_order, stop_requested};
+pub use signals::{folder_removed_on_signal, stop_in_order, stop_requested};
 pub use stderr::{escaped, say};
 pub use time::{seconds, span};

@@ -88,18 +88,6 @@ impl Output {
             None => OutputStream::stdout(),
         }
     }
-
-    /// Begins an MCAP stream: packed by zstd into a file, not packed to a reader that waits for it.
-    /// `inputs` are roles and SHA-256, as in [`crate::provenance`]. End it with `finish()?.commit()?`.
-    ///
-    /// # Errors
-    /// As [`Output::open`]; a write that fails.
-    pub fn open_mcap(&self, inputs: Vec<(String, String)>) -> anyhow::Result<mcap::Writer<OutputStream>> {
-        let out = self.open()?;
-        let (provenance, how) = (crate::provenance(inputs), out.how());
-        mcap::Writer::compressed(out, &provenance, how)
-            .with_context(|| format!("{}: cannot write", self.name()))
-    }
 }
 
 /// A buffered stream that is committed at the end.

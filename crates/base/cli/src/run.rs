@@ -98,6 +98,7 @@ pub fn run<A: clap::Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::
     };
     let error = error.or_else(|| report.as_ref().and_then(|r| tell(name, r, &common, start).err()));
     let Some(error) = error else { return ExitCode::SUCCESS };
+    signals::let_it_end();
     if code(&error) == exit::STOPPED
         && let Some(report) = &report
     {

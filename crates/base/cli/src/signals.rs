@@ -1,7 +1,8 @@
 //! Ctrl-C, termination and a lost terminal.
 //!
 //! Unfinished files that are not worth keeping are removed, then the signal has its usual effect. A tool may ask to get the signal
-//! first and end in order; a second signal ends it at once.
+//! first and end in order; a second signal ends it at once. That one arrived is noted in the handler: the thread that acts on it may come later than the
+//! failure of a program or pipe that the same signal ended.
 
 use crate::part::{Keep, PartFile};
 use signal_hook::{
@@ -12,19 +13,24 @@ use signal_hook::{
 };
 use std::{
     io,
-    path::PathBuf,
+    path::{Path, PathBuf},
     sync::{
-        Arc, Mutex, Once, PoisonError,
+        Arc, LazyLock, Mutex, Once, PoisonError,
         atomic::{AtomicBool, Ordering::SeqCst},
     },
+    time::{Duration, Instant},
 };
 
 static UNFINISHED: Mutex<Vec<(PathBuf, Keep)>> = Mutex::new(Vec::new());
 static LISTEN: Once = Once::new();
 /// Whether the tool ends in order by itself.
 static ORDERLY: AtomicBool = AtomicBool::new(false);
-/// Whether a signal asked it to.
-static STOP: AtomicBool = AtomicBool::new(false);
+/// Whether a signal that asks a tool to end has arrived.
+static ARRIVED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+/// Whether the one that asks for an end in order was acted on.
+static ASKED: AtomicBool = AtomicBool::new(false);
+/// Longest wait for the end by a signal that has arrived.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// From now on, a file that reaches the limit on sizes (`ulimit -f`) is an error of the write; the signal would kill the tool.
 pub(crate) fn size_limit_is_an_error() {
@@ -40,7 +46,15 @@ pub fn stop_in_order() {
 
 /// Whether a signal asked the tool to stop; only after [`stop_in_order`].
 pub fn stop_requested() -> bool {
-    STOP.load(SeqCst)
+    ORDERLY.load(SeqCst) && ARRIVED.load(SeqCst)
+}
+
+/// Lets a signal that has arrived end a tool that would end by it: what fails then is mostly a program or a pipe that the same signal ended.
+pub(crate) fn let_it_end() {
+    let since = Instant::now();
+    while !ORDERLY.load(SeqCst) && ARRIVED.load(SeqCst) && since.elapsed() < PATIENCE {
+        std::thread::sleep(Duration::from_millis(1));
+    }
 }
 
 /// Creates a file that is removed when a signal ends the process. Once renamed, it is no longer there to be
@@ -53,6 +67,21 @@ pub(crate) fn removed_on_signal(create: impl FnOnce() -> io::Result<PartFile>) -
     Ok(part)
 }
 
+/// Creates what holds a folder, at `path`, that is removed when a signal ends the process; as for files, unless it was renamed before.
+///
+/// # Errors
+/// Those of `create`.
+pub fn folder_removed_on_signal<T, E>(
+    create: impl FnOnce() -> Result<T, E>,
+    path: impl FnOnce(&T) -> &Path,
+) -> Result<T, E> {
+    LISTEN.call_once(listen);
+    let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+    let made = create()?;
+    unfinished.push((path(&made).to_owned(), Keep::default()));
+    Ok(made)
+}
+
 /// Whether a lost terminal is not to end the tool, as `nohup` has it; where the system does not tell, it is taken as so.
 fn hangup_is_ignored() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -63,7 +92,7 @@ fn hangup_is_ignored() -> bool {
 
 fn remove(unfinished: &[(PathBuf, Keep)]) {
     for (path, _) in unfinished.iter().filter(|(_, keep)| !keep.kept()) {
-        let _ = std::fs::remove_file(path);
+        let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
     }
 }
 
@@ -77,11 +106,17 @@ pub(crate) fn remove_unfinished() {
 fn listen() {
     // Without a listener a signal leaves the hidden file behind, which is harmless.
     let hangup = Some(SIGHUP).filter(|_| !hangup_is_ignored());
-    let Ok(mut signals) = Signals::new(TERM_SIGNALS.iter().copied().chain(hangup)) else { return };
+    let all = TERM_SIGNALS.iter().copied().chain(hangup);
+    let Ok(mut signals) = Signals::new(all.clone()) else { return };
+    for signal in all {
+        // Without it the listener alone notes the signal.
+        let _ = flag::register(signal, ARRIVED.clone());
+    }
     let listener = move || {
         for signal in signals.forever() {
+            ARRIVED.store(true, SeqCst);
             let polite = [SIGINT, SIGTERM, SIGHUP].contains(&signal);
-            if polite && ORDERLY.load(SeqCst) && !STOP.swap(true, SeqCst) {
+            if polite && ORDERLY.load(SeqCst) && !ASKED.swap(true, SeqCst) {
                 continue;
             }
             let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);

@@ -19,11 +19,12 @@ fn main() -> ExitCode {
     if std::env::var_os(tool::SWITCH).is_some() {
         return tool::main();
     }
-    let tests: [(&str, Test); 23] = [
+    let tests: [(&str, Test); 24] = [
         ("a file appears when it is whole, with ordinary permissions", a_file_appears_when_it_is_whole),
         ("a failed tool leaves the old file and nothing else", a_failed_tool_leaves_the_old_file),
         ("a panic leaves nothing", a_panic_leaves_nothing),
         ("a signal leaves nothing", a_signal_leaves_nothing),
+        ("a signal comes before what it breaks", outside::a_signal_comes_before_what_it_breaks),
         ("too little memory is one line", outside::too_little_memory_is_one_line),
         ("threads of a variable have the same limit", outside::threads_of_a_variable),
         ("names of files are bytes, as long as the system allows", outside::names_of_all_bytes_and_lengths),

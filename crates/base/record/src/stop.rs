@@ -2,6 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::os::unix::process::ExitStatusExt;
+use std::process::ExitStatus;
+
+/// Signals by which a user, a closed terminal or a scheduler ends a program: HUP, INT, QUIT, TERM.
+const ENDING: [i32; 4] = [1, 2, 3, 15];
 
 /// What stopped a run before its end: `{"by": "guard", "guard": "overlap"}`, `{"by": "signal"}`, `{"by": "device"}`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,6 +48,15 @@ pub enum Guard {
 }
 
 impl StopCause {
+    /// What an exit status alone tells, of a program that left no report; `None`: nothing stopped it from outside.
+    ///
+    /// A signal to a group of processes may end a program before the one that waits for it has noticed its own.
+    pub fn of_exit(status: ExitStatus) -> Option<StopCause> {
+        // Shells, and programs that end in order, give 128 and the number.
+        let number = status.signal().or(status.code().map(|code| code - 128));
+        number.filter(|number| ENDING.contains(number)).map(|_| StopCause::Signal)
+    }
+
     /// What a message calls it, as in "stopped by a signal".
     pub fn name(self) -> &'static str {
         match self {
@@ -87,6 +101,17 @@ impl ReportedStop {
 mod tests {
     use super::*;
     use serde_json::json;
+
+    /// With the raw status of wait(2): the signal in the low bits, the exit code above.
+    #[test]
+    fn signals_of_a_user_are_told_from_failures_and_kills() {
+        let of = |raw| StopCause::of_exit(ExitStatus::from_raw(raw));
+        for signal in ENDING {
+            assert_eq!([signal, (128 + signal) << 8].map(of), [Some(StopCause::Signal); 2]);
+        }
+        // Done, failed, wrong usage; out of memory, a fault of the program.
+        assert_eq!([0, 1 << 8, 2 << 8, 9, 11, 137 << 8].map(of), [None; 6]);
+    }
 
     /// Scripts and other programs read this form.
     #[test]

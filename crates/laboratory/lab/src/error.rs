@@ -1,7 +1,7 @@
 //! What a laboratory test refuses, and what can go wrong while it runs.
 
 use record::StopCause;
-use scene::{SceneError, SceneSetupError};
+use scene::{Place, SceneError, SceneSetupError};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -19,8 +19,9 @@ pub enum LabError {
     Sample { file: String, what: String, cure: String },
     #[error(transparent)]
     Scene(#[from] SceneError),
-    #[error(transparent)]
-    Setup(#[from] SceneSetupError),
+    /// A sample whose grains the engine refuses.
+    #[error("{place}: {source}")]
+    Setup { place: Place, source: Box<SceneSetupError> },
     #[error("{}: {what}", .file.display())]
     File { file: PathBuf, what: &'static str, source: std::io::Error },
     /// A file that a program has written, but not as expected.
@@ -29,8 +30,8 @@ pub enum LabError {
     #[error("{program}: cannot be started: install it beside lab-test")]
     Start { program: String, source: std::io::Error },
     /// A program that failed, with its last line.
-    #[error("{specimen}: {program} failed with exit code {code}: {words}")]
-    Program { specimen: String, program: String, code: i32, words: String },
+    #[error("{specimen}: {program} {how}: {words}")]
+    Program { specimen: String, program: String, how: String, words: String },
     /// A guard has stopped the run of a specimen.
     #[error("{run}: stopped by a guard at {reached}: {why}")]
     Stopped { run: String, reached: String, why: String, cause: StopCause },

@@ -25,7 +25,7 @@ pub mod text;
 
 pub use advice::SceneSetupError;
 pub use dem::setup::{WhenBlocked, ZoneMotion, ZoneTest};
-pub use error::{Result, SceneError, nearest};
+pub use error::{Place, Result, SceneError, nearest};
 pub use input::Input;
 pub use plan::{Below, Plan};
 pub use scene::Scene;

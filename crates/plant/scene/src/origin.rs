@@ -6,6 +6,7 @@ use crate::keys::Wall;
 use crate::plan::most_specific;
 use crate::scene::Scene;
 use dem::{Quantity, SetupError, Subject};
+use std::error::Error;
 
 impl Scene {
     /// Where the cause of an error of the engine stands; the scene alone where no one key is the cause.
@@ -31,6 +32,18 @@ impl Scene {
             _ => None,
         };
         key.map_or_else(|| Place { file: self.text.name.clone(), at: None }, |key| self.text.place(&key))
+    }
+
+    /// The same for any error; `None`: none of the engine is among its causes.
+    pub fn place_in(&self, error: &(dyn Error + 'static)) -> Option<Place> {
+        let mut next = Some(error);
+        while let Some(cause) = next {
+            if let Some(of_engine) = cause.downcast_ref() {
+                return Some(self.place_of(of_engine));
+            }
+            next = cause.source();
+        }
+        None
     }
 
     /// The key of a number of the engine's setup.
@@ -63,7 +76,7 @@ impl Scene {
     }
 
     /// A key of the `[[wall]]` with a surface of this name: those of a file have the name of the entry in front.
-    fn wall(&self, name: &str, key: &str) -> Option<String> {
+    pub(crate) fn wall(&self, name: &str, key: &str) -> Option<String> {
         let has = |(i, wall): (usize, &Wall)| wall.names(&wall.name_at(i)).iter().any(|own| own == name);
         let starts = |(i, wall): (usize, &Wall)| name.starts_with(&format!("{} ", wall.name_at(i)));
         let walls = || self.keys.wall.iter().enumerate();

@@ -4,7 +4,7 @@ use crate::check::Check;
 use crate::error::{Result, SceneError};
 use crate::keys::{Fill, Insert, SceneKeys};
 use crate::materials::{Taken, missing};
-use crate::text::{Text, parse};
+use crate::text::{Text, parse, parse_made};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
@@ -38,6 +38,16 @@ impl Scene {
             text.set(overrides)?;
         }
         let keys = parse(&text).map_err(|error| blame(error, name, &toml, overrides))?;
+        Check { text: &text }.keys(&keys)?;
+        Ok(Scene { text, keys, folder: folder.to_owned() })
+    }
+
+    /// A scene that a program has made from a file ([`Text::made_into`]); errors name places in that file.
+    ///
+    /// # Errors
+    /// As for [`Scene::new`].
+    pub fn made(text: Text, folder: &Path) -> Result<Scene> {
+        let keys = parse_made(&text)?;
         Check { text: &text }.keys(&keys)?;
         Ok(Scene { text, keys, folder: folder.to_owned() })
     }

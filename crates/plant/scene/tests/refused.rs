@@ -103,6 +103,11 @@ fn walls_and_faces_have_names_of_their_own() {
         &more(&face),
         &["wall.2.name = \"cup\"", "gives a face the name \"cup z+\", which wall.1"],
     );
+    refused(
+        FLOOR,
+        &more("name = \"again\"\nplane = \"3,4,-0.01,0,0,2\""),
+        &["s.toml:25:1: wall 'again': is the same surface as wall 'floor'", "take one of them out"],
+    );
     // The name of a wall without one is its place in the list.
     let named = first.replace(FLOOR, &more(&format!("name = \"wall.0\"\n{lid}")));
     assert!(read(&named, &[]).unwrap_err().contains("is a name of wall.0"));

@@ -312,7 +312,7 @@ const WALLS: &[Change] = &[
     wrong(
         "[[wall]]",
         "[[wall]]\nname = \"again\"\nplane = \"3,4,-0.01,0,0,2\"\nmaterial = \"sinter\"\n[[wall]]",
-        &["wall 'floor': is the same surface as wall 'again'", "take one of them out"],
+        &["s.toml:26:1: wall 'floor': is the same surface as wall 'again'", "take one of them out"],
     ),
     wrong(
         "plane = \"0,0,-0.01,0,0,1\"",

@@ -7,6 +7,7 @@ use cli::{Output, Report};
 use lab::recipes::Loading;
 use lab::{Curve, Lab, SpecimenOutcome, Specimens, Stresses, Summary};
 use measure::{Chart, Look};
+use record::StopCause;
 use std::io::Write;
 use std::path::Path;
 
@@ -138,12 +139,13 @@ fn write_page(page: &Path, lab: &Lab, first: &Loading, folder: &Path) -> anyhow:
         .arg(page)
         .output()
         .context("dem-view: cannot be started")?;
-    match viewed.status.success() {
-        true => Ok(()),
-        false => {
-            Err(anyhow!("--page {}: {}", page.display(), String::from_utf8_lossy(&viewed.stderr).trim()))
-        }
+    if viewed.status.success() {
+        return Ok(());
     }
+    if StopCause::of_exit(viewed.status).is_some() {
+        return Err(cli::stopped_by_signal(format!("--page {}: stopped by a signal", page.display())));
+    }
+    Err(anyhow!("--page {}: {}", page.display(), String::from_utf8_lossy(&viewed.stderr).trim()))
 }
 
 pub fn report(lab: &Lab, specimens: &Specimens, summary: &Summary) -> Report {

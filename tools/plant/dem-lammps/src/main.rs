@@ -26,7 +26,15 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
     args.check()?;
     let mut scene = read_scene(&args)?;
     cli::also_reads(scene.files())?;
-    let alone = lammps::sampled(&mut scene);
+    planned(&args, &mut scene).map_err(|error| match scene.place_in(error.as_ref()) {
+        Some(place) => error.context(place),
+        None => error,
+    })
+}
+
+/// Plans the scene, and does with it what was asked for.
+fn planned(args: &Args, scene: &mut Scene) -> anyhow::Result<Report> {
+    let alone = lammps::sampled(scene);
     let mut inputs = Vec::new();
     for source in &args.inputs {
         inputs.push(Input::open(&source.to_string(), source.open()?)?);
@@ -34,12 +42,12 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
     let mut plan = scene.plan(inputs)?;
     plan.warnings.extend(alone(&plan.setup));
     plan.warnings.iter().for_each(|note| cli::warn(note));
-    let engine = engine(&args);
-    let version = version(&args, &engine, &plan)?;
+    let engine = engine(args);
+    let version = version(args, &engine, &plan)?;
     let target = Target { version, nearest: args.nearest };
-    let allowed = lammps::allow(&scene, &plan, target).with_context(|| args.scene.to_string())?;
+    let allowed = lammps::allow(scene, &plan, target).with_context(|| args.scene.to_string())?;
     let inflow = Inflow::read(&mut plan, scene.keys.time.until.unwrap_or(0.0))?;
-    let prepared = lammps::prepare(&scene, &plan, &inflow, &allowed, engine.ranks)
+    let prepared = lammps::prepare(scene, &plan, &inflow, &allowed, engine.ranks)
         .with_context(|| args.scene.to_string())?;
     if args.nearest && prepared.deck.bent.is_empty() {
         cli::warn("--nearest changes nothing: LAMMPS has all that the scene asks for");
@@ -61,7 +69,7 @@ fn dem_lammps(args: Args) -> anyhow::Result<Report> {
             prepared.files().join(", ")
         )));
     }
-    simulate(&args, &scene, &plan, &prepared, &engine)
+    simulate(args, scene, &plan, &prepared, &engine)
 }
 
 fn read_scene(args: &Args) -> anyhow::Result<Scene> {

@@ -15,7 +15,7 @@ use misplaced::MCAP;
 use parts::Saved;
 use record::StopCause;
 use run::{Checkpoint, Earlier, Outcome, Progress, RunError, Settings, run};
-use scene::{Input, Plan, Scene, SceneError, SceneSetupError};
+use scene::{Input, Plan, Scene, SceneError};
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
@@ -81,8 +81,7 @@ fn main() -> ExitCode {
 
 /// Adds the place of its cause in the scene to an error of the engine.
 fn in_scene(error: anyhow::Error, scene: &Scene) -> anyhow::Error {
-    let cause = error.chain().find_map(|cause| cause.downcast_ref::<SceneSetupError>());
-    match cause.map(|cause| scene.place_of(cause)) {
+    match scene.place_in(error.as_ref()) {
         Some(place) => error.context(place),
         None => error,
     }

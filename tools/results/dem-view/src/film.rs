@@ -75,14 +75,17 @@ fn draw_all(reel: &Reel, args: &Args, output: &Output, format: Format) -> anyhow
 /// Where pictures go.
 enum Sink {
     Gif(Gif<OutputStream>),
-    Mp4(Mp4),
+    /// The film, and the file that ffmpeg writes.
+    Mp4(Mp4, OutputStream),
 }
 
 impl Sink {
     fn open(reel: &Reel, args: &Args, output: &Output, format: Format) -> anyhow::Result<(Sink, f64)> {
         if format == Format::Mp4 {
-            let path = output.path().context("an MP4 needs a file: give -o NAME.mp4")?;
-            return Ok((Sink::Mp4(Mp4::begin(path, reel.size(), args.fps())?), 1.0 / f64::from(args.fps())));
+            let out = output.open()?;
+            let part = out.part().context("an MP4 needs a file: give -o NAME.mp4")?;
+            let film = Mp4::begin(part, reel.size(), args.fps())?;
+            return Ok((Sink::Mp4(film, out), 1.0 / f64::from(args.fps())));
         }
         let delay = (100.0 / f64::from(args.fps())).round().max(2.0) as u16;
         let palette = reel.palette()?;
@@ -93,14 +96,17 @@ impl Sink {
     fn add(&mut self, image: &Image) -> anyhow::Result<()> {
         match self {
             Sink::Gif(gif) => Ok(gif.add(image)?),
-            Sink::Mp4(mp4) => Ok(mp4.add(image)?),
+            Sink::Mp4(mp4, _) => Ok(mp4.add(image)?),
         }
     }
 
     fn finish(self) -> anyhow::Result<()> {
         match self {
             Sink::Gif(gif) => gif.finish()?.commit(),
-            Sink::Mp4(mp4) => Ok(mp4.finish()?),
+            Sink::Mp4(mp4, out) => {
+                mp4.finish()?;
+                out.commit()
+            }
         }
     }
 }

@@ -26,7 +26,7 @@ pub fn vtp(args: &Args, output: &Output) -> anyhow::Result<Report> {
 /// A folder of files, and the list that says which of them shows what at which time.
 pub fn pvd(args: &Args, output: &Output) -> anyhow::Result<Report> {
     let path = output.path().context("a series needs a file and a folder: give -o NAME.pvd")?;
-    let folder = SeriesFolder::beside(path)?;
+    let folder = cli::folder_removed_on_signal(|| SeriesFolder::beside(path), SeriesFolder::filling)?;
     let mut series = Series::new(args.span(), folder.keeper());
     let seen = inputs::read_all(args, &mut series)?;
     let times = match series.times() {

@@ -1,7 +1,7 @@
 //! Films and series of files from outside: how many pictures, of which times, and the same bytes every time.
 
 use assert_cmd::Command;
-use std::{fs, path::Path};
+use std::{fs, os::unix::process::ExitStatusExt, path::Path, process::Stdio, time::Duration};
 use stream::{
     Table, Values,
     mcap::{Provenance, Writer},
@@ -149,6 +149,37 @@ fn without_ffmpeg_the_cure_is_named() {
     let assert = command.assert().code(1);
     assert!(said(&assert).contains("install it") && said(&assert).contains(".gif"), "{}", said(&assert));
     assert!(!folder.path().join("run.mp4").exists());
+}
+
+/// A film that ffmpeg packs and a folder of files are removed by a signal, as every other output.
+#[test]
+fn a_signal_leaves_no_film_and_no_series() {
+    let folder = folder();
+    let names = || {
+        let all = fs::read_dir(folder.path()).expect("a folder").map(|e| e.expect("an entry").file_name());
+        all.collect::<std::collections::BTreeSet<_>>()
+    };
+    let before = names();
+    let long = ["run.mcap", "--size", "160x120", "--every", "1e-4", "-o", "a.mp4"];
+    // This one waits for its input.
+    for words in [&long[..], &["-", "-o", "a.pvd"]] {
+        if words.contains(&"a.mp4") && Command::new("ffmpeg").arg("-version").ok().is_err() {
+            continue;
+        }
+        let mut tool = std::process::Command::new(env!("CARGO_BIN_EXE_dem-view"));
+        tool.current_dir(folder.path()).args(words).stdin(Stdio::piped()).stderr(Stdio::null());
+        let mut child = tool.spawn().expect("it starts");
+        let stdin = child.stdin.take();
+        while names() == before {
+            assert!(child.try_wait().expect("a child").is_none(), "it has ended");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let sent = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+        assert!(sent.expect("kill").success());
+        assert_eq!(child.wait().expect("a child").signal(), Some(15), "{words:?}");
+        assert_eq!(names(), before, "{words:?}");
+        drop(stdin);
+    }
 }
 
 #[test]

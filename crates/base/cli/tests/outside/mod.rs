@@ -4,6 +4,7 @@ use crate::{names, tool};
 use std::ffi::OsStr;
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
+use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -90,4 +91,15 @@ pub fn names_of_all_bytes_and_lengths(folder: &Path) {
     }
     let left = fs::read_dir(folder).unwrap().count();
     assert_eq!(left, 6, "no part is left");
+}
+
+/// What fails because the same signal has ended it is no failure: the signal ends the tool, however late its listener comes.
+pub fn a_signal_comes_before_what_it_breaks(folder: &Path) {
+    for _ in 0..50 {
+        let mut tool = Command::new(std::env::current_exe().unwrap());
+        tool.args(["helper", "-o", "out.bin"]).env(tool::SWITCH, "1").current_dir(folder);
+        let done = tool.output().unwrap();
+        let (signal, words) = (done.status.signal(), String::from_utf8_lossy(&done.stderr));
+        assert_eq!((signal, words.trim(), fs::read_dir(folder).unwrap().count()), (Some(15), "", 0));
+    }
 }

@@ -13,8 +13,9 @@ use serde_json::Value;
 use std::cell::RefCell;
 use std::fs::File;
 use std::io::Write;
+use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 use stream::reads::{self, RECORD};
 
@@ -202,34 +203,38 @@ impl Chain<'_> {
             .stderr(stderr);
         let child =
             command.spawn().map_err(|source| LabError::Start { program: program.to_owned(), source })?;
-        let code =
+        let status =
             self.wait(child).map_err(LabError::file(&self.place.folder, "cannot wait for a program"))?;
-        match code {
-            0 | GUARD => Ok(()),
-            code => {
-                let said = std::fs::read_to_string(&said).unwrap_or_default();
-                let words = said
-                    .lines()
-                    .rev()
-                    .find(|line| !line.trim().is_empty())
-                    .unwrap_or("it gave no reason; is the disk full?");
-                let words = words.strip_prefix(&format!("{program}: ")).unwrap_or(words).to_owned();
-                Err(LabError::Program {
-                    specimen: self.place.specimen.clone(),
-                    program: program.to_owned(),
-                    code,
-                    words,
-                })
-            }
+        if matches!(status.code(), Some(0 | GUARD)) {
+            return Ok(());
         }
+        // A signal to all of them may end it before it is noticed here.
+        if StopCause::of_exit(status).is_some() {
+            return Err(LabError::Interrupted);
+        }
+        let (how, usual) = match status.signal() {
+            Some(number) => (format!("was killed by signal {number}"), "is there too little memory?"),
+            None => {
+                (format!("failed with exit code {}", status.code().unwrap_or_default()), "is the disk full?")
+            }
+        };
+        let said = std::fs::read_to_string(&said).unwrap_or_default();
+        let last = said.lines().rev().find(|line| !line.trim().is_empty());
+        let last = last.map(|line| line.strip_prefix(&format!("{program}: ")).unwrap_or(line));
+        Err(LabError::Program {
+            specimen: self.place.specimen.clone(),
+            program: program.to_owned(),
+            how,
+            words: last.map_or_else(|| format!("it gave no reason; {usual}"), str::to_owned),
+        })
     }
 
-    /// The exit code of a program; a signal to us is passed on to it.
-    fn wait(&self, mut child: Child) -> std::io::Result<i32> {
+    /// How a program ended; a signal to us is passed on to it.
+    fn wait(&self, mut child: Child) -> std::io::Result<ExitStatus> {
         let mut told = false;
         loop {
             if let Some(status) = child.try_wait()? {
-                return Ok(status.code().unwrap_or(128));
+                return Ok(status);
             }
             if (self.programs.stop)() && !told {
                 // It may have ended at this instant.

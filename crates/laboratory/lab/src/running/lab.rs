@@ -159,7 +159,7 @@ impl Lab {
                 .map(|(of, made)| made.map_or_else(|| one(of, true), |made| Ok(Some(made))))
                 .collect()
         });
-        if (programs.stop)() {
+        if (programs.stop)() || matches!(made, Err(LabError::Interrupted)) {
             return Err(LabError::Signal { done: finished.into_inner(), all: self.loadings.len() });
         }
         let outcomes = made?.into_iter().map(|made| made.ok_or(LabError::Interrupted));

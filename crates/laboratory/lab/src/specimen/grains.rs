@@ -1,6 +1,6 @@
 //! What is known of the grains of a sample: sizes, time step, and where they are if they are packed already.
 
-use crate::error::Result;
+use crate::error::{LabError, Result};
 use dem::setup::{Bond, BondKind, BondSprings, Setup};
 use geom::{Vec3, sphere};
 use scene::{Plan, Scene, SceneSetupError};
@@ -86,7 +86,10 @@ impl Grains {
         grains.largest = bodies.iter().map(|b| 2.0 * b.reach).fold(0.0, f64::max);
         (grains.volume, grains.density, grains.around) = (solid / n, mass / solid, around / solid);
         grains.packed = packed.then(|| Packed::of(&setup, solid));
-        grains.step = dem::time_step(&setup).map_err(SceneSetupError::from)?;
+        grains.step = dem::time_step(&setup).map_err(|error| {
+            let source = SceneSetupError::from(error);
+            LabError::Setup { place: scene.place_of(&source), source: source.into() }
+        })?;
         grains.breaking = grains.breaking_of(&setup.bonds);
         Ok(grains)
     }

@@ -31,6 +31,8 @@ pub struct Sample {
     pub grains: Grains,
     /// Files that it names.
     pub files: Vec<PathBuf>,
+    /// As it was written, with the changes of `set`.
+    text: Text,
     document: DocumentMut,
 }
 
@@ -59,6 +61,7 @@ impl Sample {
             folder: folder.to_owned(),
             grains: Grains::none(),
             files: Vec::new(),
+            text,
             document,
         };
         let trial = sample.trial()?;
@@ -145,7 +148,7 @@ impl Sample {
 }
 
 fn trial_scene(sample: &Sample, trial: &Composition) -> Result<Scene> {
-    Ok(Scene::new(&sample.name, trial.text(), &[], &sample.folder)?)
+    Ok(Scene::made(sample.text.made_into(trial.text()), &sample.folder)?)
 }
 
 fn largest(values: &[f64]) -> f64 {

@@ -8,7 +8,7 @@ mod overrides;
 mod parse;
 mod rebase;
 
-pub(crate) use parse::parse;
+pub(crate) use parse::{parse, parse_made};
 pub use rebase::rebase;
 
 use crate::error::{Place, Result, SceneError};
@@ -45,8 +45,8 @@ pub struct Text {
     pub name: String,
     /// Its text, with the changes of `--set`.
     pub toml: String,
-    /// Its text before the changes.
-    before: String,
+    /// Its text before the changes, where there are any: what the reader sees.
+    before: Option<String>,
     /// The changes.
     overrides: Vec<String>,
 }
@@ -54,7 +54,7 @@ pub struct Text {
 impl Text {
     /// A scene's text under the name of its file.
     pub fn new(name: &str, toml: String) -> Text {
-        Text { name: name.to_owned(), toml, before: String::new(), overrides: Vec::new() }
+        Text { name: name.to_owned(), toml, before: None, overrides: Vec::new() }
     }
 
     /// Changes values: each override is `KEY=VALUE`, the key dotted with indices for lists
@@ -79,9 +79,15 @@ impl Text {
             }
             put(document.as_table_mut(), &path, overrides::value(value)).map_err(refuse)?;
         }
-        self.before = std::mem::replace(&mut self.toml, document.to_string());
+        self.before = Some(std::mem::replace(&mut self.toml, document.to_string()));
         self.overrides = overrides.to_vec();
         Ok(())
+    }
+
+    /// Another scene that a program has made from this one, with its keys at the same places in their lists: errors name places in this file.
+    pub fn made_into(&self, toml: String) -> Text {
+        let before = self.before.clone().unwrap_or_else(|| self.toml.clone());
+        Text { name: self.name.clone(), toml, before: Some(before), overrides: self.overrides.clone() }
     }
 
     /// The override that a key's value comes from: of the key itself, or of a key above or below it.
@@ -138,8 +144,8 @@ impl Text {
         if let Some(text) = self.set_by(key) {
             return self.changes(&[text]);
         }
-        if !self.overrides.is_empty() {
-            return Text::new(&self.name, self.before.clone()).place(key);
+        if let Some(before) = &self.before {
+            return Text::new(&self.name, before.clone()).place(key);
         }
         let Ok(document) = toml_edit::Document::parse(self.toml.as_str()) else { return self.at(None) };
         let mut item: &Item = document.as_item();

@@ -38,14 +38,27 @@ pub(crate) fn parse(text: &Text) -> Result<SceneKeys> {
             "there is nothing in it: a scene has at least [time], a [[material]] and grains".to_owned();
         return Err(SceneError::Syntax { place: text.at(None), message });
     }
-    let keys = toml::Deserializer::parse(&text.toml).map_err(|e| refused(text, "", &e))?;
-    serde_path_to_error::deserialize(keys).map_err(|e| refused(text, &dotted(e.path()), e.inner()))
+    let here = |table: &str, e: &Error| refused((text, text.at(e.span().map(|s| s.start))), table, e);
+    let keys = toml::Deserializer::parse(&text.toml).map_err(|e| here("", &e))?;
+    serde_path_to_error::deserialize(keys).map_err(|e| here(&dotted(e.path()), e.inner()))
 }
 
-/// The error of a scene for an error of the parser in the table at a dotted path.
-fn refused(text: &Text, table: &str, error: &Error) -> SceneError {
-    let start = error.span().map(|s| s.start);
-    let (place, message) = (text.at(start), error.message().trim());
+/// Reads a scene that a program has made from another ([`Text::made_into`]).
+///
+/// # Errors
+/// As for [`parse`], at their places in the other.
+pub(crate) fn parse_made(text: &Text) -> Result<SceneKeys> {
+    let there = |table: &str, e: &Error| {
+        let key = unknown(e.message().trim()).map_or(String::new(), |(key, _)| format!(".{key}"));
+        refused((text, text.place(&format!("{table}{key}"))), table, e)
+    };
+    let keys = toml::Deserializer::parse(&text.toml).map_err(|e| there("", &e))?;
+    serde_path_to_error::deserialize(keys).map_err(|e| there(&dotted(e.path()), e.inner()))
+}
+
+/// The error of a scene at a place for an error of the parser in the table at a dotted path.
+fn refused((text, place): (&Text, Place), table: &str, error: &Error) -> SceneError {
+    let (start, message) = (error.span().map(|s| s.start), error.message().trim());
     if let Some(key) = message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`')) {
         return SceneError::Syntax { place, message: missing(table, key) };
     }
@@ -53,9 +66,7 @@ fn refused(text: &Text, table: &str, error: &Error) -> SceneError {
     if let Some(message) = written_once(message, word, text.line(start)) {
         return SceneError::Syntax { place, message };
     }
-    // The last such words are the parser's own: a key may hold any text.
-    let unknown = message.strip_prefix("unknown field `");
-    match unknown.and_then(|rest| rest.rsplit_once("`, expected ").or(rest.rsplit_once("`, there are "))) {
+    match unknown(message) {
         Some((key, rest)) => unknown_key(place, key, rest),
         None => {
             let hint = variant_hint(message).map_or(String::new(), |h| format!("; did you mean '{h}'?"));
@@ -66,6 +77,13 @@ fn refused(text: &Text, table: &str, error: &Error) -> SceneError {
             }
         }
     }
+}
+
+/// The key that the parser does not know, and those that it does.
+fn unknown(message: &str) -> Option<(&str, &str)> {
+    let rest = message.strip_prefix("unknown field `")?;
+    // The last such words are the parser's own: a key may hold any text.
+    rest.rsplit_once("`, expected ").or(rest.rsplit_once("`, there are "))
 }
 
 /// The path of a table as `--set` writes it.

@@ -1,10 +1,10 @@
 //! What is measured of a run: by dem-measure, a value of its summary or a column of its rows.
 
 use super::script::SweepRun;
-use super::work::is_ended;
 use crate::study::CurveError;
 use measure::definition::Figure;
 use measure::registry::{ALL, Entry};
+use record::StopCause;
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
@@ -85,7 +85,7 @@ impl Measure {
             command.arg(job.file("run.mcap")).args(&self.options).args(["--json", "-q", "-o"]).arg(&kept);
             let start = format!("{}: cannot be started", program.display());
             let done = command.output().map_err(CurveError::io(start))?;
-            if is_ended(done.status) {
+            if StopCause::of_exit(done.status).is_some() {
                 let why = "stopped by a signal while runs were measured: the same command continues";
                 return Err(CurveError::Signal(why.to_owned()));
             }

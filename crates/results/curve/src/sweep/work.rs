@@ -2,10 +2,10 @@
 
 use super::script::{BUSY, Counter, NOW, SweepRun};
 use crate::study::{CurveError, Work};
+use record::StopCause;
 use serde_json::Value;
-use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::SeqCst};
 
@@ -135,16 +135,6 @@ fn uncounted(job: &SweepRun, work: Work) -> bool {
     work == Work::Instructions && !job.file("instructions").exists()
 }
 
-/// Signals that end a run in the name of the user: HUP, INT, QUIT, TERM.
-const ENDING: [i32; 4] = [1, 2, 3, 15];
-
-/// Whether a signal ended a program in the name of the user.
-pub(super) fn is_ended(status: ExitStatus) -> bool {
-    // Shells and programs that end in order give 128 and the number.
-    let number = status.signal().or(status.code().map(|code| code - 128));
-    number.is_some_and(|number| ENDING.contains(&number))
-}
-
 /// Runs the scripts, so many at a time; `begins` and `ends` are called with each run.
 ///
 /// # Errors
@@ -182,7 +172,7 @@ pub fn run(
                     continue;
                 }
                 // A signal to all of them may end a run before it is noticed here.
-                Ok(status) if is_ended(status) => {
+                Ok(status) if StopCause::of_exit(status).is_some() => {
                     ended.store(true, SeqCst);
                 }
                 Ok(_) => {}

@@ -3,10 +3,9 @@
 use crate::{Image, ViewError};
 use std::{
     io::{ErrorKind, Read, Write},
-    path::{Path, PathBuf},
+    path::Path,
     process::{Child, ChildStdin, Command, Stdio},
 };
-use tempfile::TempPath;
 
 /// Fixed, so that the bytes do not depend on the machine's number of cores.
 const THREADS: &str = "4";
@@ -19,8 +18,6 @@ const FILTER: &str =
 pub struct Mp4 {
     ffmpeg: Child,
     to: ChildStdin,
-    temp: TempPath,
-    path: PathBuf,
 }
 
 /// Checks that the program ffmpeg is there.
@@ -41,17 +38,11 @@ fn not_started(error: std::io::Error) -> ViewError {
 }
 
 impl Mp4 {
-    /// Begins a film of pictures of a size [pixel], so many a second, in the file `path`.
+    /// Begins a film of pictures of a size [pixel], so many a second, in the file `path`, whose name need not tell what it is.
     ///
     /// # Errors
-    /// A folder that cannot be written to, a program that cannot be started.
+    /// A program that cannot be started.
     pub fn begin(path: &Path, [width, height]: [u32; 2], fps: u32) -> Result<Mp4, ViewError> {
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let stem = path.file_name().unwrap_or_default().to_string_lossy();
-        let temp = tempfile::Builder::new().prefix(&format!(".{stem}.")).suffix(".part").tempfile_in(folder);
-        let create =
-            format!("{}: cannot create it (check that the folder exists and is writable)", path.display());
-        let (temp, path) = (temp.map_err(ViewError::io(create))?.into_temp_path(), path.to_owned());
         let (size, rate) = (format!("{width}x{height}"), fps.to_string());
         let mut ffmpeg = Command::new("ffmpeg")
             .args(["-hide_banner", "-loglevel", "error", "-nostdin", "-y"])
@@ -60,14 +51,14 @@ impl Mp4 {
             .args(["-c:v", "libx264", "-preset", "medium", "-crf", "18", "-threads", THREADS])
             .args(["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"])
             .args(["-fflags", "+bitexact", "-flags:v", "+bitexact", "-movflags", "+faststart", "-f", "mp4"])
-            .arg(&temp)
+            .arg(path)
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(Stdio::piped())
             .spawn()
             .map_err(not_started)?;
         let to = ffmpeg.stdin.take().ok_or(ViewError::Ffmpeg { why: "no pipe to it".into() })?;
-        Ok(Mp4 { ffmpeg, to, temp, path })
+        Ok(Mp4 { ffmpeg, to })
     }
 
     /// Adds a picture.
@@ -89,21 +80,19 @@ impl Mp4 {
         }
     }
 
-    /// Ends the film and gives the file its name.
+    /// Ends the film.
     ///
     /// # Errors
-    /// The program failed, a file that cannot be renamed.
+    /// The program failed.
     pub fn finish(self) -> Result<(), ViewError> {
-        let Mp4 { mut ffmpeg, to, temp, path } = self;
+        let Mp4 { mut ffmpeg, to } = self;
         drop(to);
         let why = words(&mut ffmpeg);
         let ended = ffmpeg.wait().map_err(ViewError::io("ffmpeg: cannot wait for it"))?;
-        if !ended.success() {
-            return Err(ViewError::Ffmpeg { why: format!("failed ({ended}): {why}") });
+        match ended.success() {
+            true => Ok(()),
+            false => Err(ViewError::Ffmpeg { why: format!("failed ({ended}): {why}") }),
         }
-        let rename = format!("{}: cannot rename to it", path.display());
-        open_to_all(&temp).map_err(ViewError::io(rename.clone()))?;
-        temp.persist(&path).map_err(|e| ViewError::io(rename)(e.error))
     }
 }
 
@@ -113,16 +102,4 @@ fn words(ffmpeg: &mut Child) -> String {
     // Words that cannot be read are missing from the message.
     let _ = ffmpeg.stderr.as_mut().map(|e| e.read_to_string(&mut text));
     text.lines().next_back().unwrap_or("it gave no reason").to_owned()
-}
-
-/// A temporary file is its owner's only; this one stays.
-#[cfg(unix)]
-fn open_to_all(file: &Path) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    std::fs::set_permissions(file, std::fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn open_to_all(_: &Path) -> std::io::Result<()> {
-    Ok(())
 }

@@ -156,11 +156,6 @@ impl Page {
         self.notes.push(text);
     }
 
-    /// Whether regions can be drawn on it.
-    pub fn picks(&self) -> bool {
-        self.options.pick.is_some()
-    }
-
     /// Adds a layer; its number is for [`Page::push`].
     pub fn layer(&mut self, role: Role, name: &str) -> usize {
         self.layers.push(PageLayer {

@@ -41,6 +41,11 @@ impl SeriesFolder {
         Ok(SeriesFolder { filling, place, name, list: path.to_owned(), reach: Rc::default() })
     }
 
+    /// The folder that is being filled; it has a name of its own until all is there.
+    pub fn filling(&self) -> &Path {
+        self.filling.path()
+    }
+
     /// Writes each state to a file as it comes: a run that does not fit in memory can be shown.
     pub fn keeper(&self) -> KeepState<String> {
         let (folder, reach) = (self.filling.path().to_owned(), self.reach.clone());

@@ -62,7 +62,13 @@ impl PlanBuilder<'_> {
             let Some(other) = self.walls[..k].iter().find(|other| is_same(wall, other)) else { continue };
             let why =
                 format!("is the same surface as wall '{}': a grain would touch both at once", other.name);
-            return Err(SceneError::file(&format!("wall '{}'", wall.name), why, "take one of them out"));
+            let place = self.scene.wall(&wall.name, "").map(|key| self.scene.text.place(&key));
+            let place = place.map_or(String::new(), |place| format!("{place}: "));
+            return Err(SceneError::file(
+                &format!("{place}wall '{}'", wall.name),
+                why,
+                "take one of them out",
+            ));
         }
         Ok(())
     }
