@@ -84,6 +84,11 @@ pub enum MeasureError {
          with --wall NAME for one wall, or set [output] contacts = true and run again"
     )]
     WholeWalls,
+    #[error(
+        "--wear-coefficient: no material '{name}' in this run; there are {}: give the name of one, or K alone for all",
+        has.join(", ")
+    )]
+    Material { name: String, has: Vec<String> },
     #[error("no material or wall '{name}'; there are {}", has.join(", "))]
     Name { name: String, has: Vec<String> },
 }

@@ -1,6 +1,6 @@
 //! What all measures of a run share: they read it event by event and return rows.
 
-use crate::{Chart, Frame, Head, MeasureError, Row, Run, RunMessage, Summary};
+use crate::{Chart, Frame, Geometry, Head, MeasureError, Row, Run, RunMessage, Summary};
 use geom::{Shape, Vec3};
 
 /// Something measured on a run while it comes.
@@ -19,6 +19,13 @@ pub trait Observer {
     fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError>;
     /// What to draw, from all rows that were given.
     fn chart(&self, rows: &[Row]) -> Chart;
+    /// What it has measured, as geometry: after [`Observer::end`].
+    ///
+    /// # Errors
+    /// It has none; why, and what to do.
+    fn geometry(&self) -> Result<Geometry, &'static str> {
+        Err("only --wear has a geometry: name the output .csv")
+    }
     /// Whether a frame holds grains that it counts: the last of those is the last frame.
     fn counts(&self, _: &Run, frame: &Frame) -> bool {
         !frame.is_empty()

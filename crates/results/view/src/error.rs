@@ -68,6 +68,17 @@ pub enum ViewError {
     /// A message without its columns.
     #[error("{topic}: columns are missing: write the run with dem-run")]
     Columns { topic: &'static str },
+    /// A message of wear that cannot be read.
+    #[error(
+        "/wall_wear at {} s: {why}: the run is damaged here: show it without --walls-colour, or run again",
+        geom::Shown(*time)
+    )]
+    Wear { time: f64, why: String },
+    /// A map of nothing.
+    #[error(
+        "--walls-colour: no grain has touched a triangle or wall sphere so far, so there is nothing to colour: run longer, or leave it out"
+    )]
+    Untouched,
     /// Columns that do not make a table.
     #[error("cannot make a table of what is shown: {why}")]
     Table {

@@ -17,6 +17,7 @@ pub mod vtk;
 
 pub use appearance::camera::Camera;
 pub use appearance::colour::{Map, Rgb};
+pub use appearance::wall_scale::WallScale;
 pub use error::ViewError;
 pub use geom::Motion;
 pub use page::{Page, PageContent, PageOptions};
@@ -31,6 +32,8 @@ pub use record::SurfaceShape;
 pub use things::bodies::GrainCount;
 pub use things::extras::{Arrows, Extras};
 pub use things::surface::WallSurface;
+pub use things::wear_state::{PartValues, WearState};
+pub use wear::WearField;
 
 /// What a table of spheres or points is, and so how it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

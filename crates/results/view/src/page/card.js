@@ -57,6 +57,11 @@ function pickedValues() {
   const { layer, surface } = picked.hit;
   const error = surface ? 1e-6 * halfDiagonal : run.positionError;
   const rows = at.place.map((v, k) => ({ name: "xyz"[k], value: v, text: number(v, digitsOf(error, 1)), unit: "m" }));
+  const coloured = surface ?? layer;
+  if (isWorn(coloured)) {
+    const value = wornValue(coloured, surface ? picked.hit.row : at.row);
+    rows.push({ name: run.walls.name, value, text: significant(value * run.walls.factor), unit: run.walls.unit });
+  }
   if (surface) return rows;
   for (const [n, field] of layer.fields.entries()) {
     if (["x", "y", "z", "id"].includes(field.name) || !at.frame.fields[n]) continue;

@@ -18,6 +18,7 @@ const painter = {
     this.map = texture(256, 1, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE);
     for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, side, gl.LINEAR);
     this.mapShown = null;
+    setWallMap();
   },
 
   setMap() {
@@ -51,10 +52,9 @@ const painter = {
     this.ball = dots ? this.points : this.balls;
     const [width, height] = [canvas.width, canvas.height];
     const size = [width * quality, height * quality];
-    const walls = mainRole !== "walls" && state.opacity < 0.999;
     const view = this.view(size);
     const all = this.layers.filter((b) => !state.hidden.has(b.layer));
-    const isGlass = (b) => walls && b.layer.role === "walls";
+    const isGlass = (b) => mainRole !== "walls" && b.layer.role === "walls" && opacityOf(b.layer) < 0.999;
     this.drawn = 0;
     this.smooth = false;
     const glass = all.filter((b) => isGlass(b) && state.opacity > 0);
@@ -167,6 +167,7 @@ const painter = {
 
   // What a layer is coloured by in a frame: up to three columns, and how a program reads them.
   paint(layer, frame) {
+    if (isWorn(layer)) { const column = wornAt(layer); return { columns: [column, null, null], mode: 0, axis: -1, worn: column }; }
     const axis = ["x", "y", "z"].indexOf(state.field);
     const main = layer.role === mainRole;
     // A scan beside grains keeps the colours it came with.
@@ -182,7 +183,8 @@ const painter = {
     return { columns, mode: !coloured ? 0 : own ? 3 : about.kinds ? kinds : 1, axis: own ? -1 : axis };
   },
 
-  setPaint({ at }, { columns, mode, axis }) {
+  setPaint({ at }, { columns, mode, axis, worn: column }) {
+    setWorn({ at }, column);
     columns.forEach((column, n) => gl.uniform2f(at(`valueOf[${n}]`), column ? column[1] : 0, column ? column[2] - column[1] : 0));
     gl.uniform1i(at("mode"), mode);
     gl.uniform1i(at("axis"), axis);

@@ -32,9 +32,11 @@ function element(tag, text, style) {
 function showLegend() {
   const legend = byId("legend");
   legend.replaceChildren();
-  const about = describe(state.field);
+  // Walls that are coloured by what was done to them are not coloured by a field.
+  const about = mainRole === "walls" && worn.on ? null : describe(state.field);
   const bonds = run.layers.some((l) => l.role === "bonds");
-  legend.hidden = !about && !bonds;
+  legend.hidden = !about && !bonds && !worn.on;
+  legend.classList.toggle("two", Boolean(about) && worn.on);
   if (about) legend.append(element("h2", about.unit ? `${about.name} [${about.unit}]` : about.name));
   if (about?.kinds && about.all[1] >= run.kinds.length) {
     legend.append(element("p", "colours repeat"));
@@ -46,8 +48,9 @@ function showLegend() {
     const last = Math.max(1, about.classes.length - 1);
     legend.append(swatches(about.classes.map((name, k) => [mapAt(state.map, k / last), name])));
   } else if (about) {
-    showBar(legend, about);
+    showBar(legend, { ...about, shown: state.shown, map: state.map, log: false });
   }
+  showWornLegend(legend);
   if (bonds) legend.append(swatches([[WHOLE, "bond"], [BREAK, "crack"]]));
 }
 
@@ -62,25 +65,50 @@ function swatches(rows) {
   return list;
 }
 
+// The marks of a bar: its ends, which are always labelled, and round values between that are not too near to them.
+function marksOf([lo, hi], log) {
+  const step = roundBelow((hi - lo) / 4);
+  const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step))));
+  const ticks = [];
+  if (log) {
+    const [first, last] = [Math.floor(Math.log10(lo)), Math.ceil(Math.log10(hi))];
+    for (let n = first; n <= last; n++) for (const m of last - first <= 2 ? [1, 2, 5] : [1]) ticks.push(m * 10 ** n);
+  } else {
+    for (let k = Math.ceil((lo - 1e-6 * step) / step); k * step <= hi + 1e-6 * step; k++) ticks.push(k * step);
+  }
+  const share = (v) => (log ? Math.log(v / lo) / Math.log(hi / lo) : (v - lo) / (hi - lo));
+  const label = (v) => (log ? significant(v) : number(v, decimals));
+  const inner = ticks.map((v) => [share(v), label(v)]).filter(([at]) => at >= 0.06 && at <= 0.94);
+  const end = (v) => { const t = label(v); return Math.abs(Number(t.replace("−", "-")) - v) <= 1e-3 * (hi - lo) ? t : significant(v); };
+  return [[0, end(lo)], ...inner, [1, end(hi)]];
+}
+
+// A number to three digits.
+function significant(value) {
+  const text = String(Number(value.toPrecision(3)));
+  return text.replace("-", "−");
+}
+
 function showBar(legend, about) {
   const bar = element("div");
   bar.className = "bar";
-  const stops = run.maps[state.map].map(css);
+  const stops = run.maps[about.map].map(css);
   bar.style.setProperty("--stops", stops.join(","));
-  const [lo, hi] = state.shown.map((v) => v * about.factor);
-  const step = roundBelow((hi - lo) / 4);
-  const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step))));
-  for (let k = Math.ceil((lo - 1e-6 * step) / step); k * step <= hi + 1e-6 * step; k++) {
-    const tick = element("span", number(k * step, decimals));
-    tick.style.setProperty("--at", `${100 * (k * step - lo) / (hi - lo)}%`);
+  const ends = about.shown.map((v) => v * about.factor);
+  const marks = marksOf(ends, about.log);
+  for (const [at, text] of marks) {
+    const tick = element("span", text);
+    tick.style.setProperty("--at", `${100 * at}%`);
     bar.append(tick);
   }
   // A bar ends in a point where some values lie beyond it.
-  const slack = 1e-6 * (state.shown[1] - state.shown[0]);
-  const beyond = [about.all[0] < state.shown[0] - slack, about.all[1] > state.shown[1] + slack];
+  const slack = 1e-6 * (about.shown[1] - about.shown[0]);
+  const beyond = [about.all[0] < about.shown[0] - slack, about.all[1] > about.shown[1] + slack];
   beyond.forEach((on, end) => { if (on) bar.append(Object.assign(element("b", undefined, { background: stops[end ? stops.length - 1 : 0] }), { className: end ? "above" : "below" })); });
   legend.append(bar);
-  legend.setAttribute("aria-label", `Colour scale: ${about.name} from ${number(lo, decimals)} to ${number(hi, decimals)} ${about.unit}`);
+  const words = `${about.name} from ${marks[0][1]} to ${marks[marks.length - 1][1]} ${about.unit}`;
+  const before = legend.childElementCount > 2 ? `${legend.getAttribute("aria-label")}; ` : "Colour scale: ";
+  legend.setAttribute("aria-label", before + words);
 }
 
 function readableLength(metres) {

@@ -4,6 +4,7 @@ use super::{
     Page, PageLayer,
     pack::Column,
     panes::{self, Framed, Pane},
+    worn::WearTrack,
 };
 use crate::appearance::{colour, field, scale};
 use crate::things::{extras, sheet};
@@ -18,7 +19,7 @@ use std::sync::Arc;
 const TEMPLATE: &str = include_str!("page.html");
 const REGION: &str = include_str!("region.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: [&str; 17] = [
+const SCRIPT: [&str; 18] = [
     include_str!("data.js"),
     include_str!("camera.js"),
     include_str!("card.js"),
@@ -27,6 +28,7 @@ const SCRIPT: [&str; 17] = [
     include_str!("sheet.js"),
     include_str!("rods.js"),
     include_str!("solids.js"),
+    include_str!("worn.js"),
     include_str!("cut.js"),
     include_str!("find.js"),
     include_str!("legend.js"),
@@ -80,7 +82,7 @@ impl<W: Write> Write for Counted<W> {
 
 /// Every column of bytes with a number, each place in memory once.
 #[derive(Default)]
-struct Blobs<'a> {
+pub(super) struct Blobs<'a> {
     list: Vec<&'a [u8]>,
     number: HashMap<*const Vec<u8>, usize>,
 }
@@ -93,7 +95,7 @@ impl<'a> Blobs<'a> {
         })
     }
 
-    fn column(&mut self, column: &'a Column) -> Value {
+    pub(super) fn column(&mut self, column: &'a Column) -> Value {
         let blob = if column.bytes.is_empty() { Value::Null } else { json!(self.number(&column.bytes)) };
         json!([blob, column.range.lo, column.range.hi, column.width])
     }
@@ -217,7 +219,8 @@ impl Page {
             "clock": self.times(),
             "lo": framed.extent.map(|r| r.lo), "hi": framed.extent.map(|r| r.hi),
             "layers": with_outline.map(|(l, o)| layer(l, o, blobs)).collect::<Vec<_>>(),
-            "surfaces": framed.panes.iter().map(|p| pane(p, blobs)).collect::<Vec<_>>(),
+            "walls": self.walls_json(),
+            "surfaces": framed.panes.iter().zip(0..).map(|(p, n)| pane(p, self.worn.get(&n), blobs)).collect::<Vec<_>>(),
         })
     }
 }
@@ -233,12 +236,13 @@ fn page_size(blobs: &Blobs, header: &Value, script: &str, shaders: &str) -> usiz
     TEMPLATE.len() + slim(STYLE).len() + shaders.len() + script.len() + packed + header.to_string().len()
 }
 
-fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
+fn pane<'a>(pane: &'a Pane, worn: Option<&'a WearTrack>, blobs: &mut Blobs<'a>) -> Value {
     let [vertices, faces, lines] = [&pane.vertices, &pane.faces, &pane.lines].map(|b| blobs.number(b));
     json!({
         "name": pane.name, "motion": panes::motion(&pane.motion), "origin": panes::triple(&pane.origin),
         "vertices": vertices, "faces": faces, "lines": lines, "ink": pane.ink,
         "faceCount": pane.faces.len() / 12, "normal": pane.normal.as_ref().map(panes::triple),
+        "wear": worn.map(|track| track.to_json(blobs)), "parts": pane.parts.as_ref().map(|parts| blobs.number(parts)),
         "outline": pane.outline.iter().map(panes::triple).collect::<Vec<_>>(),
     })
 }
@@ -292,6 +296,7 @@ fn layer<'a>(
         "outline": places(outline),
         "strays": places(strays),
         "solids": layer.solids.header(|bytes| blobs.number(bytes)),
+        "wear": layer.wear.to_json(blobs),
         "frames": frames,
     })
 }

@@ -1,6 +1,6 @@
 //! What a picture is to be like.
 
-use crate::{Camera, Map};
+use crate::{Camera, Map, PartValues, WallScale};
 
 /// A picture's settings.
 #[derive(Debug, Clone)]
@@ -25,6 +25,12 @@ pub struct PictureOptions {
     pub cut: bool,
     /// Light text on dark paper.
     pub dark: bool,
+    /// What walls are coloured by; none: they are grey.
+    pub walls: Option<WallScale>,
+    /// How much of what is behind it a coloured wall hides, 0 to 1: a colour that is seen through is another one.
+    pub coloured_opacity: f64,
+    /// Values of the faces of each surface, in the unit of that.
+    pub surface_values: Vec<Option<PartValues>>,
 }
 
 impl Default for PictureOptions {
@@ -40,6 +46,9 @@ impl Default for PictureOptions {
             wall_opacity: 0.2,
             cut: false,
             dark: false,
+            walls: None,
+            coloured_opacity: 1.0,
+            surface_values: Vec::new(),
         }
     }
 }

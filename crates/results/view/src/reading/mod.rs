@@ -6,3 +6,4 @@ pub(crate) mod only;
 pub(crate) mod run;
 pub(crate) mod series;
 pub(crate) mod show;
+mod worn;

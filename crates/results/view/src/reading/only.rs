@@ -1,7 +1,7 @@
 //! Shows only some of the grains: those whose field has a wanted value.
 
 use crate::appearance::field;
-use crate::{LayerHead, Role, Show, ViewError, WallSurface};
+use crate::{LayerHead, Role, Show, ViewError, WallSurface, WearState};
 use stream::Table;
 
 /// Which grains are shown.
@@ -80,8 +80,12 @@ impl<S: Show> Show for Chosen<'_, S> {
         layer
     }
 
-    fn surface(&mut self, surface: WallSurface) {
-        self.show.surface(surface);
+    fn surface(&mut self, surface: WallSurface) -> usize {
+        self.show.surface(surface)
+    }
+
+    fn wear(&mut self, time: f64, state: WearState) -> Result<(), ViewError> {
+        self.show.wear(time, state)
     }
 
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
@@ -112,7 +116,13 @@ mod tests {
             self.1 - 1
         }
 
-        fn surface(&mut self, _: WallSurface) {}
+        fn surface(&mut self, _: WallSurface) -> usize {
+            0
+        }
+
+        fn wear(&mut self, _: f64, _: WearState) -> Result<(), ViewError> {
+            Ok(())
+        }
 
         fn push(&mut self, layer: usize, _: f64, table: Table) -> Result<(), ViewError> {
             self.0.push((layer, table.get("x").map(Values::to_f64).unwrap_or_default()));

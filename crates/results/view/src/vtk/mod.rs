@@ -11,6 +11,7 @@
 
 mod collection;
 mod fields;
+mod ply;
 mod polydata;
 mod series;
 
