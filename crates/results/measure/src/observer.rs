@@ -187,7 +187,7 @@ impl<M: OfFrame> Observer for PerFrame<M> {
 
 /// Whether a grain has fallen past all walls.
 fn has_fallen(run: &Run, frame: &Frame, row: usize) -> bool {
-    run.walls_end.is_some_and(|(down, depth)| frame.position[row].dot(&down) - frame.radius[row] > depth)
+    run.walls_end.is_some_and(|end| end.is_past(&frame.position[row], frame.radius[row]))
 }
 
 /// A row at a time [s] in which nothing else is defined.

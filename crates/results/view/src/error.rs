@@ -94,6 +94,9 @@ pub enum ViewError {
         /// The names there are.
         known: Vec<String>,
     },
+    /// Something to hide that is not there.
+    #[error("--hide: no '{name}' here: choose one of {}", known.join(", "))]
+    NoHidden { name: String, known: Vec<String> },
     /// A material that the run does not have.
     #[error("only: no material '{name}' here: {}", match known.len() {
         0 => "materials have numbers alone, so give one, such as material=1".to_owned(),

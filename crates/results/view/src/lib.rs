@@ -23,6 +23,7 @@ pub use geom::Motion;
 pub use page::{Page, PageContent, PageOptions};
 pub use picture::{DrawnTable, Image, PictureOptions, Survey};
 pub use reading::diagram::{Diagram, DiagramCurve};
+pub use reading::hidden::Hidden;
 pub use reading::moment::Moment;
 pub use reading::only::{Chosen, Only, Wanted};
 pub use reading::run::show_run;

@@ -1,4 +1,4 @@
-//! What was measured as triangles and spheres in space, for ParaView (`.vtp`) and for CloudCompare and MeshLab (`.ply`).
+//! What was measured as triangles and spheres in space, for ParaView (`.vtp`) and for CloudCompare (`.ply`).
 
 use crate::args::Args;
 use crate::sheet::Sheet;
@@ -77,7 +77,9 @@ fn points(geometry: &Geometry) -> PolyData {
     }
     let column = |of_sphere: &dyn Fn(usize) -> f64, of_triangle: &dyn Fn(usize) -> f64| {
         let corners = (0..triangles.len()).flat_map(|k| [of_triangle(k); 3]);
-        (0..spheres.len()).map(of_sphere).chain(corners).collect::<Vec<f64>>()
+        // What never wears lasts for ever, which no scale of colours has.
+        let known = |value: f64| if value.is_finite() { value } else { f64::NAN };
+        (0..spheres.len()).map(of_sphere).chain(corners).map(known).collect::<Vec<f64>>()
     };
     let field = |name: &str, values| Field { name: name.to_owned(), components: 1, values };
     let radii = || field("radius", Values::F64(column(&|k| spheres[k].1, &|_| f64::NAN)));

@@ -3,7 +3,7 @@
 use crate::formats::{self, Format};
 use clap::Parser;
 use cli::{OutPath, Source};
-use view::{Arrows, Camera, Extras, Map, Only, PictureOptions, Span, WallScale, WearField};
+use view::{Arrows, Camera, Extras, Hidden, Map, Only, PictureOptions, Span, WallScale, WearField};
 
 /// What is smaller in a picture is hardly seen [pixel].
 const SMALL: u32 = 24;
@@ -38,9 +38,13 @@ pub struct Args {
     /// broken), id, x, y, z, rgb, or any column [default: speed, else z]
     #[arg(long, visible_alias = "color", value_name = "FIELD")]
     pub colour: Option<String>,
-    /// Show only the grains with this value of a field, or with one from LO to HI [SI]; a material by name
+    /// Show only the grains with this value of a field, or with one from LO to HI [SI]; a material by name. Repeat: grains that have all of
+    /// them
     #[arg(long, value_name = "FIELD=LO,HI", value_parser = formats::only)]
-    pub only: Option<Only>,
+    pub only: Vec<Only>,
+    /// Leave out what has this name: grains, walls, cloud, bonds, arrows, or a wall (repeat). A page can show it again
+    #[arg(long, value_name = "NAME")]
+    pub hide: Vec<String>,
     /// Ends of the colour scale in SI units [default: the range of 98 % of the values]
     #[arg(long, value_name = "LO,HI", value_parser = formats::range, allow_hyphen_values = true)]
     pub range: Option<[f64; 2]>,
@@ -113,7 +117,7 @@ impl Args {
     /// Refuses options that change nothing in this kind of output.
     pub fn check(&self, format: Format) -> anyhow::Result<()> {
         use Format::{Gif, Html, Mp4, Png, Pvd, Vtp};
-        let options: [(&str, bool, &[Format]); 20] = [
+        let options: [(&str, bool, &[Format]); 21] = [
             ("--pick", self.pick, &[Html]),
             ("--title", self.title.is_some(), &[Html]),
             ("--max-mb", self.max_mb.is_some(), &[Html]),
@@ -125,6 +129,7 @@ impl Args {
             ("--fps", self.fps.is_some(), &[Gif, Mp4]),
             ("--colour", self.colour.is_some(), &[Html, Png, Gif, Mp4]),
             ("--walls-colour", self.walls_colour.is_some(), &[Html, Png, Gif, Mp4]),
+            ("--hide", !self.hide.is_empty(), &[Html, Png, Gif, Mp4]),
             ("--range", self.range.is_some(), &[Html, Png, Gif, Mp4]),
             ("--map", self.map.is_some(), &[Html, Png, Gif, Mp4]),
             ("--camera", self.camera.is_some(), &[Html, Png, Gif, Mp4]),
@@ -160,7 +165,7 @@ impl Args {
             return Err(cli::usage(format!("{name}: a cloud has none: leave it out")));
         }
         let others = [("--bonds", self.bonds), ("--vectors", self.vectors.is_some()), ("--pick", self.pick)];
-        if let Some((name, _)) = others.iter().find(|(_, given)| *given && self.only.is_some()) {
+        if let Some((name, _)) = others.iter().find(|(_, given)| *given && !self.only.is_empty()) {
             return Err(cli::usage(format!(
                 "--only: chooses grains, and not what {name} shows: leave one of them out"
             )));
@@ -249,6 +254,11 @@ impl Args {
         Extras { bonds: self.bonds, broken, arrows: self.vectors, wear: self.walls_colour }
     }
 
+    /// What is not drawn.
+    pub fn hidden(&self) -> Hidden {
+        Hidden(self.hide.clone())
+    }
+
     /// What walls are coloured by.
     pub fn walls(&self) -> Option<WallScale> {
         let field = self.walls_colour?;
@@ -280,6 +290,8 @@ impl Args {
             coloured_opacity: self.wall_opacity.unwrap_or(PictureOptions::default().coloured_opacity),
             cut: self.cut,
             dark: self.dark,
+            hidden: self.hidden(),
+            walls_end: None,
             walls: self.walls(),
             surface_values: Vec::new(),
         }

@@ -90,8 +90,8 @@ pub fn read_watched(
     {
         return Err(cli::usage(format!("{option}: meshes have no field to colour by: leave it out")));
     }
-    chosen.check()?;
-    if args.only.is_some() {
+    chosen.check(&args.hidden())?;
+    if !args.only.is_empty() {
         match chosen.counts() {
             [_, 0] => return Err(cli::usage("--only: no input has grains: leave it out")),
             [0, _] => anyhow::bail!("--only: no grain has such a value: give another range"),

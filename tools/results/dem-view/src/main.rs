@@ -46,6 +46,7 @@ fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {
     let options = PictureOptions {
         time: moment.time(),
         surface_values: moment.surface_values(),
+        walls_end: moment.walls_end,
         ..args.picture(Format::Png)
     };
     let image = picture::png(&moment.parts(), moment.surfaces(), &options)?;

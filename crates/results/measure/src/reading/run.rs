@@ -15,7 +15,7 @@ use record::topic::{
     BODIES, BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES,
     WALL_WEAR, WALLS,
 };
-use record::{DomainRecord, Ending, RunTimes, SurfaceShape, WallRecord};
+use record::{DomainRecord, Ending, RunTimes, SurfaceShape, WallRecord, WallsEnd};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use stream::{Table, mcap::Event};
@@ -103,8 +103,8 @@ pub struct Run {
     pub outlets: Vec<Plane>,
     /// Direction against gravity [–]; `None` without gravity.
     pub up: Option<Vec3>,
-    /// Direction of gravity [–] and how far along it any wall reaches [m]; `None` where grains cannot fall past all of them, or it is not known.
-    pub walls_end: Option<(Vec3, f64)>,
+    /// How far along gravity any wall reaches; `None` where grains cannot fall past all of them, or it is not known.
+    pub walls_end: Option<WallsEnd>,
     /// Acceleration of free fall [m/s²]; 0 where it is not known.
     pub gravity: f64,
     /// The periodic box as it is now.
@@ -114,7 +114,7 @@ pub struct Run {
     /// Indices of their materials, where the run tells them.
     pub wall_materials: Vec<Option<usize>>,
     /// Indices of the walls that are planes.
-    planes: Vec<usize>,
+    pub(crate) planes: Vec<usize>,
     /// Motions of the walls, without those of servos.
     pub motions: Vec<Motion>,
     /// Triangles of the walls that have some, at t = 0.
@@ -128,13 +128,6 @@ pub struct Run {
     pub ending: Ending,
     /// A frame with clumps, whose message comes next.
     pub(crate) waiting: Option<Frame>,
-}
-
-/// [`Run::walls_end`] of its record.
-fn walls_end(map: &BTreeMap<String, String>) -> Option<(Vec3, f64)> {
-    let numbers: Vec<f64> = map.get("down")?.split(',').map(str::parse).collect::<Result<_, _>>().ok()?;
-    let &[x, y, z] = numbers.as_slice() else { return None };
-    Some((Vec3::new(x, y, z), map.get("depth")?.parse().ok()?))
 }
 
 impl Run {
@@ -225,7 +218,7 @@ impl Run {
                 self.densities = all.iter().map(|m| m["density"].as_f64().unwrap_or(f64::NAN)).collect();
             }
             TIME => self.step = RunTimes::read(map).dt.unwrap_or(0.0),
-            WALLS_END => self.walls_end = walls_end(map),
+            WALLS_END => self.walls_end = WallsEnd::read(map),
             PLACES => {
                 let place =
                     |(k, text): (&String, &String)| Some((k.parse().ok()?, Transform::parse(text).ok()?));

@@ -81,6 +81,29 @@ pub fn names_things(name: &str) -> bool {
     ["id", "body", "cluster", "class", "material", "wall", "region", "removed"].contains(&name)
 }
 
+/// What the numbers of `removed` mean, as `cloud-crop --mark` writes them.
+const REMOVED: [&str; 10] = [
+    "0 stays",
+    "1 shape",
+    "2 beyond the outer shape",
+    "3 outlier",
+    "4 grazing",
+    "5 ground",
+    "6 scattered",
+    "7 smaller part",
+    "8 repeated",
+    "9 by its properties",
+];
+
+/// What the numbers of a field mean; `materials` are those of `material`.
+pub fn codes(name: &str, materials: &[String]) -> Vec<String> {
+    match name {
+        "material" => materials.to_vec(),
+        "removed" => REMOVED.map(str::to_owned).to_vec(),
+        _ => Vec::new(),
+    }
+}
+
 /// The field a person means by another name for it.
 pub fn canonical(name: &str) -> &str {
     match name {

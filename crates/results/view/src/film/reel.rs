@@ -57,7 +57,8 @@ impl Reel {
 
     fn at_with(&self, time: f64, options: &PictureOptions) -> PictureOptions {
         let surface_values = self.series.surface_values(time);
-        PictureOptions { time: Some(time), surface_values, ..options.clone() }
+        let walls_end = self.series.walls_end;
+        PictureOptions { time: Some(time), surface_values, walls_end, ..options.clone() }
     }
 
     /// The picture of a time [s].

@@ -66,7 +66,7 @@ function pickedValues() {
   for (const [n, field] of layer.fields.entries()) {
     if (["x", "y", "z", "id"].includes(field.name) || !at.frame.fields[n]) continue;
     const value = valueAt(at.frame.fields[n], at.row);
-    const kind = field.name === "material" && layer.kinds[Math.round(value)];
+    const kind = (field.name === "material" && layer.kinds[Math.round(value)]) || field.codes[Math.round(value)];
     const text = field.whole ? kind || String(Math.round(value)) : number(value * field.factor, digitsOf(errorOf(at.frame.fields[n]), field.factor));
     rows.push({ name: field.name, value: field.whole ? Math.round(value) : value, text, unit: field.unit });
   }

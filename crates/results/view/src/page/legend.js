@@ -38,11 +38,11 @@ function showLegend() {
   legend.hidden = !about && !bonds && !worn.on;
   legend.classList.toggle("two", Boolean(about) && worn.on);
   if (about) legend.append(element("h2", about.unit ? `${about.name} [${about.unit}]` : about.name));
-  if (about?.kinds && about.all[1] >= run.kinds.length) {
+  if (about?.kinds && about.all[1] >= Math.max(run.kinds.length, about.codes?.length ?? 0)) {
     legend.append(element("p", "colours repeat"));
   } else if (about?.kinds) {
     const names = mainLayers[0].kinds;
-    const kinds = run.kinds.slice(0, about.all[1] + 1).map((colour, k) => [colour, (about.name === "material" && names[k]) || String(k)]);
+    const kinds = Array.from({ length: about.all[1] + 1 }, (_, k) => [run.kinds[k % run.kinds.length], (about.name === "material" && names[k]) || about.codes?.[k] || String(k)]);
     legend.append(swatches(kinds.slice(about.all[0])));
   } else if (about?.classes) {
     const last = Math.max(1, about.classes.length - 1);

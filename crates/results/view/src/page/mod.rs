@@ -22,13 +22,13 @@ use crate::things::{
     spheres::Spheres,
 };
 use crate::{
-    Camera, Diagram, GrainCount, Map, Motion, Role, ViewError, WallScale, WallSurface,
+    Camera, Diagram, GrainCount, Hidden, Map, Motion, Role, ViewError, WallScale, WallSurface,
     picture::{self, ArrowKey},
 };
 use exact::Exact;
 use pack::Packed;
 use page_field::{Field, new_fields};
-use record::{ClumpRecord, column::RADIUS};
+use record::{ClumpRecord, WallsEnd, column::RADIUS};
 use solids::PageSolids;
 use std::collections::BTreeMap;
 use stream::{Table, Values};
@@ -58,6 +58,8 @@ pub struct PageOptions {
     pub pick: Option<String>,
     /// Dark colours first; else those of the system.
     pub dark: bool,
+    /// What is not shown at first.
+    pub hidden: Hidden,
     /// What walls are coloured by; none: they are grey.
     pub walls: Option<WallScale>,
 }
@@ -75,6 +77,7 @@ impl Default for PageOptions {
             components: false,
             pick: None,
             dark: false,
+            hidden: Hidden::default(),
             walls: None,
         }
     }
@@ -135,6 +138,7 @@ pub struct Page {
     /// What grains did to the triangles of surfaces, by their numbers.
     worn: BTreeMap<usize, WearTrack>,
     wall_survey: WallSurvey,
+    walls_end: Option<WallsEnd>,
     given: usize,
     stride: usize,
     lengths_only: bool,
@@ -154,6 +158,7 @@ impl Page {
             surfaces,
             worn: BTreeMap::new(),
             wall_survey: WallSurvey::default(),
+            walls_end: None,
             given: 0,
             stride: 1,
             lengths_only: false,
@@ -245,9 +250,10 @@ impl Page {
         if layer.role.is_rods() {
             layer.add_reach(table, &spheres);
         } else {
-            layer.outline.add_spheres(&spheres, &bodies, layer.role != Role::Walls);
+            let end = self.walls_end.filter(|_| moving);
+            layer.outline.add_spheres(&spheres, &bodies, layer.role != Role::Walls, end);
             if layer.outline.leaves_out(&spheres) {
-                layer.strays.add_spheres(&spheres, &[], false);
+                layer.strays.add_spheres(&spheres, &[], false, None);
             }
         }
         let last = layer.frames.last();

@@ -36,7 +36,7 @@ function choices() {
   [...run.layers, ...run.surfaces].forEach((layer) => {
     const label = element("label");
     label.className = "check";
-    const box_ = Object.assign(element("input"), { type: "checkbox", checked: true });
+    const box_ = Object.assign(element("input"), { type: "checkbox", checked: !state.hidden.has(layer) });
     box_.onchange = () => { state.hidden[box_.checked ? "delete" : "add"](layer); changed(); };
     layer.box = box_;
     label.append(box_, element("span", layer.name));

@@ -1,11 +1,15 @@
 //! What the parts of walls of a page are coloured by: a column of numbers for each time.
 
 use super::pack::Column;
-use super::{Page, write::Blobs};
+use super::{
+    Page,
+    write::{Blobs, is_shown},
+};
 use crate::appearance::scale::{Range, readable};
 use crate::appearance::wall_scale::WALL_MAP;
 use crate::things::wear_state::PartValues;
 use crate::{Map, ViewError, WearState};
+use record::WallsEnd;
 use serde_json::{Value, json};
 
 /// The values of the parts of one layer or surface over time, thinned as frames are; the last one always stays.
@@ -47,6 +51,11 @@ impl WearTrack {
 }
 
 impl Page {
+    /// Lets the camera leave out grains that have fallen past all walls; before they are pushed.
+    pub fn walls_end(&mut self, end: WallsEnd) {
+        self.walls_end = Some(end);
+    }
+
     /// Colours the parts of walls from `time` [s] on; times must not fall.
     ///
     /// # Errors
@@ -63,6 +72,16 @@ impl Page {
         let all = state.layers.iter().chain(&state.surfaces);
         self.wall_survey.add(all.flat_map(|(_, values)| values.iter().map(|v| f64::from(*v))));
         self.fit()
+    }
+
+    /// Which of the layers that are shown, and which surfaces, are hidden at first.
+    pub(super) fn hidden_json(&self) -> Value {
+        let hidden = &self.options.hidden;
+        let layers = self.layers.iter().filter(|layer| is_shown(layer));
+        let layers: Vec<bool> = layers.map(|layer| hidden.hides_layer(layer.role, &layer.name)).collect();
+        let surfaces: Vec<bool> =
+            self.surfaces.iter().map(|surface| hidden.hides_surface(&surface.name)).collect();
+        json!({ "layers": layers, "surfaces": surfaces })
     }
 
     /// What the colours of walls mean, as the page reads it.

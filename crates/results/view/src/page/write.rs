@@ -218,6 +218,7 @@ impl Page {
             "positionError": kept.position_error, "radiusError": kept.radius_error,
             "clock": self.times(),
             "lo": framed.extent.map(|r| r.lo), "hi": framed.extent.map(|r| r.hi),
+            "hidden": self.hidden_json(),
             "layers": with_outline.map(|(l, o)| layer(l, o, blobs)).collect::<Vec<_>>(),
             "walls": self.walls_json(),
             "surfaces": framed.panes.iter().zip(0..).map(|(p, n)| pane(p, self.worn.get(&n), blobs)).collect::<Vec<_>>(),
@@ -226,7 +227,7 @@ impl Page {
 }
 
 /// Whether the layer has anything in it, ever.
-fn is_shown(layer: &PageLayer) -> bool {
+pub(super) fn is_shown(layer: &PageLayer) -> bool {
     layer.frames.iter().any(|f| f.count > 0)
 }
 
@@ -311,7 +312,7 @@ fn arrow_json(key: &ArrowKey) -> Value {
 
 fn named_field(name: &str, whole: bool, all: [f64; 2], shown: [f64; 2]) -> Value {
     let (unit, factor) = scale::readable(field::unit(name), shown[0].abs().max(shown[1].abs()));
-    json!({ "name": name, "whole": whole, "things": whole && field::names_things(name), "unit": unit, "factor": factor, "all": all, "shown": shown })
+    json!({ "name": name, "codes": field::codes(name, &[]), "whole": whole, "things": whole && field::names_things(name), "unit": unit, "factor": factor, "all": all, "shown": shown })
 }
 
 /// A program without indentation and without lines of comments.

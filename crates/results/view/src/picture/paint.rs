@@ -92,13 +92,14 @@ impl Painted<'_> {
         survey: &Survey,
         options: &PictureOptions,
     ) -> Result<Painted<'a>, ViewError> {
-        if survey.is_empty() && surfaces.is_empty() {
+        if survey.is_empty() && surfaces.iter().all(|surface| options.hidden.hides_surface(&surface.name)) {
             return Err(ViewError::Empty);
         }
         let (key, wall_key) = (survey.key(options), survey.wall_key(options));
         let mut layers = Vec::new();
         let shrunk = if parts.iter().any(|p| p.role.is_rods()) { GRAINS } else { 1.0 };
-        for part in parts.iter().filter(|p| p.table.rows() > 0 && !p.role.is_rods()) {
+        let shown = |p: &&DrawnTable| !options.hidden.hides_layer(p.role, &p.name);
+        for part in parts.iter().filter(shown).filter(|p| p.table.rows() > 0 && !p.role.is_rods()) {
             let mut spheres = Spheres::of(part.table, &part.name)?;
             if part.role == Role::Grains {
                 spheres.shrunk = shrunk;
@@ -129,7 +130,7 @@ impl Painted<'_> {
             wall_key,
             extent: survey.extent(),
         };
-        parts.iter().for_each(|part| painted.add_rods(part, options));
+        parts.iter().filter(shown).for_each(|part| painted.add_rods(part, options));
         painted.place(surfaces, survey, options);
         Ok(painted)
     }
@@ -155,6 +156,9 @@ impl Painted<'_> {
         let mut outline = survey.outline.clone();
         self.outline = outline.points();
         for (number, sheet) in sheet::sheets(surfaces, self.extent).into_iter().enumerate() {
+            if options.hidden.hides_surface(&sheet.surface.name) {
+                continue;
+            }
             let pose = sheet.surface.motion.pose(time);
             let vertices: Vec<Vec3> = sheet.vertices.iter().map(|v| pose.position(v)).collect();
             let faces = sheet.faces.iter().map(|f| f.map(|v| vertices[v as usize])).collect();

@@ -56,17 +56,20 @@ impl Survey {
         options: &PictureOptions,
     ) -> Result<(), ViewError> {
         self.moments += 1;
-        for part in parts {
+        for part in parts.iter().filter(|p| !options.hidden.hides_layer(p.role, &p.name)) {
             if let Role::Arrows(of) = part.role {
                 self.arrows.add(of, part.table);
             }
         }
-        let parts = || parts.iter().filter(|p| p.table.rows() > 0 && !p.role.is_rods());
+        let shown = |p: &&DrawnTable| !options.hidden.hides_layer(p.role, &p.name);
+        let parts = || parts.iter().filter(shown).filter(|p| p.table.rows() > 0 && !p.role.is_rods());
         for part in parts() {
             let spheres = Spheres::of(part.table, &part.name)?;
-            self.outline.add_spheres(&spheres, &part.bodies(), part.role != Role::Walls);
+            let end = options.walls_end.filter(|_| part.role == Role::Grains);
+            self.outline.add_spheres(&spheres, &part.bodies(), part.role != Role::Walls, end);
         }
-        for surface in surfaces.iter().filter(|s| self.moments == 1 || s.motion.moves()) {
+        let surfaces = surfaces.iter().filter(|s| !options.hidden.hides_surface(&s.name));
+        for surface in surfaces.filter(|s| self.moments == 1 || s.motion.moves()) {
             if let SurfaceShape::Mesh(mesh) = &surface.shape {
                 let pose = surface.motion.pose(options.time.unwrap_or(0.0));
                 self.outline.add(&mesh.vertices.iter().map(|v| pose.position(v)).collect::<Vec<Vec3>>());
@@ -143,8 +146,9 @@ impl Survey {
         }
         let few = all.hi < colour::KIND_COUNT as f64;
         if *whole && all.lo >= 0.0 && (few || field::names_things(&name)) {
-            let count = if few { all.hi as usize + 1 } else { 0 };
-            let names = (0..count).map(|k| kinds.get(k).cloned().unwrap_or_else(|| k.to_string()));
+            let codes = field::codes(&name, kinds);
+            let count = if few || all.hi < codes.len() as f64 { all.hi as usize + 1 } else { 0 };
+            let names = (0..count).map(|k| codes.get(k).cloned().unwrap_or_else(|| k.to_string()));
             return Key::Kinds { field: name, names: names.collect() };
         }
         let range = match options.range {

@@ -1,6 +1,7 @@
 //! From a run to what can be shown: layers, moments, series and diagrams.
 
 pub(crate) mod diagram;
+pub(crate) mod hidden;
 pub(crate) mod moment;
 pub(crate) mod only;
 pub(crate) mod run;

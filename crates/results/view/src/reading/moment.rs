@@ -2,6 +2,7 @@
 
 use crate::reading::show::{LayerHead, Show, add_surface};
 use crate::{DrawnTable, GrainCount, PartValues, Role, ViewError, WallSurface, WearState};
+use record::WallsEnd;
 use stream::Table;
 
 /// One thing at the moment shown.
@@ -17,6 +18,8 @@ pub struct Moment {
     until: f64,
     layers: Vec<MomentLayer>,
     surfaces: Vec<WallSurface>,
+    /// Where walls end, where the run tells it.
+    pub walls_end: Option<WallsEnd>,
     /// What walls are coloured by at the time shown, and what is later so far, with their times [s].
     wear: Option<(f64, WearState)>,
     later: Option<(f64, WearState)>,
@@ -32,6 +35,7 @@ impl Moment {
             until: time.unwrap_or(f64::INFINITY),
             layers: Vec::new(),
             surfaces: Vec::new(),
+            walls_end: None,
             wear: None,
             later: None,
         }
@@ -110,6 +114,10 @@ impl Show for Moment {
 
     fn surface(&mut self, surface: WallSurface) -> usize {
         add_surface(&mut self.surfaces, surface)
+    }
+
+    fn walls_end(&mut self, end: WallsEnd) {
+        self.walls_end = Some(end);
     }
 
     fn wear(&mut self, time: f64, state: WearState) -> Result<(), ViewError> {

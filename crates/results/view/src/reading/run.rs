@@ -6,9 +6,9 @@ use crate::things::extras;
 use crate::{Arrows, Extras, Motion, Role, ViewError, WallSurface};
 use geom::Vec3;
 use record::column::{BROKEN, RADIUS, WALL};
-use record::metadata::{CLUMPS, MATERIALS};
+use record::metadata::{CLUMPS, MATERIALS, WALLS_END};
 use record::topic::{BONDS, CONTACTS, PARTICLES, SURFACES, WALL_WEAR, WALLS};
-use record::{ClumpRecord, Map, MaterialRecord, SurfaceShape, WallRecord};
+use record::{ClumpRecord, Map, MaterialRecord, SurfaceShape, WallRecord, WallsEnd};
 use std::collections::{BTreeMap, HashMap};
 use stream::mcap::{Event, McapError};
 use stream::{Table, Values};
@@ -77,6 +77,9 @@ pub fn show_run(
     for event in events {
         match event? {
             Event::Metadata { name, map } if name == MATERIALS => run.kinds = names(&map),
+            Event::Metadata { name, map } if name == WALLS_END => {
+                WallsEnd::read(&map).into_iter().for_each(|end| run.show.walls_end(end));
+            }
             // A record that cannot be read is one of spheres, as without it.
             Event::Metadata { name: of, map } if of == CLUMPS => {
                 run.clumps = ClumpRecord::from_map(name, &map).unwrap_or_default();

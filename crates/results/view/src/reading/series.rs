@@ -2,6 +2,7 @@
 
 use crate::reading::show::{LayerHead, Show, add_surface};
 use crate::{DrawnTable, PartValues, Role, ViewError, WallSurface, WearState};
+use record::WallsEnd;
 use std::borrow::Cow;
 use stream::Table;
 
@@ -42,6 +43,8 @@ pub struct Series<T> {
     pub layers: Vec<SeriesLayer<T>>,
     /// Planes and meshes.
     pub surfaces: Vec<WallSurface>,
+    /// Where walls end, where the run tells it.
+    pub walls_end: Option<WallsEnd>,
     /// What walls are coloured by, from times on [s].
     wear: Vec<(f64, WearState)>,
     span: Span,
@@ -51,7 +54,7 @@ pub struct Series<T> {
 impl<T> Series<T> {
     /// Keeps what `keep` makes of each state in the span.
     pub fn new(span: Span, keep: KeepState<T>) -> Series<T> {
-        Series { layers: Vec::new(), surfaces: Vec::new(), wear: Vec::new(), span, keep }
+        Series { layers: Vec::new(), surfaces: Vec::new(), walls_end: None, wear: Vec::new(), span, keep }
     }
 
     /// The times that grains were kept of, in order; without grains, those of all else.
@@ -145,6 +148,10 @@ impl<T> Show for Series<T> {
 
     fn surface(&mut self, surface: WallSurface) -> usize {
         add_surface(&mut self.surfaces, surface)
+    }
+
+    fn walls_end(&mut self, end: WallsEnd) {
+        self.walls_end = Some(end);
     }
 
     fn wear(&mut self, time: f64, state: WearState) -> Result<(), ViewError> {

@@ -1,7 +1,7 @@
 //! What layers are shown on: a page, one moment, or a series of moments.
 
 use crate::{DrawnTable, Motion, Page, Role, ViewError, WallSurface, WearState};
-use record::ClumpRecord;
+use record::{ClumpRecord, WallsEnd};
 use stream::Table;
 
 /// One thing to show, without its states.
@@ -47,6 +47,8 @@ pub trait Show {
     /// # Errors
     /// A page beyond its limit.
     fn wear(&mut self, time: f64, state: WearState) -> Result<(), ViewError>;
+    /// Tells where walls end; what shows no camera does not ask.
+    fn walls_end(&mut self, _: WallsEnd) {}
     /// Adds a state of a layer, at `time` [s].
     ///
     /// # Errors
@@ -66,6 +68,10 @@ impl Show for Page {
 
     fn surface(&mut self, surface: WallSurface) -> usize {
         Page::surface(self, surface)
+    }
+
+    fn walls_end(&mut self, end: WallsEnd) {
+        Page::walls_end(self, end);
     }
 
     fn wear(&mut self, time: f64, state: WearState) -> Result<(), ViewError> {

@@ -1,4 +1,4 @@
-//! The same as binary PLY, whose properties CloudCompare and MeshLab read as scalar fields.
+//! The same as binary PLY, whose properties CloudCompare reads as scalar fields.
 
 use super::polydata::PolyData;
 use std::io::{self, Write};
