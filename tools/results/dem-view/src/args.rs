@@ -35,7 +35,8 @@ pub struct Args {
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
     pub file: Option<OutPath>,
     /// Field to colour by: speed, spin, radius, size (classes of diameter), material, broken (share of a grain's bonds that are
-    /// broken), id, x, y, z, rgb, or any column [default: speed, else z]
+    /// broken), residence (time since the first frame with the grain), origin (there at the start, or came in later), id, x, y, z, rgb, or
+    /// any column [default: speed, else z]
     #[arg(long, visible_alias = "color", value_name = "FIELD")]
     pub colour: Option<String>,
     /// Show only the grains with this value of a field, or with one from LO to HI [SI]; a material by name. Repeat: grains that have all of
@@ -250,8 +251,12 @@ impl Args {
 
     /// What is shown of a run besides grains and walls.
     pub fn extras(&self) -> Extras {
+        let asked = |name: &str| {
+            self.colour.as_deref() == Some(name) || self.only.iter().any(|only| only.field == name)
+        };
+        let history = asked("residence") || asked("origin");
         let broken = self.bonds || self.colour.as_deref() == Some("broken");
-        Extras { bonds: self.bonds, broken, arrows: self.vectors, wear: self.walls_colour }
+        Extras { bonds: self.bonds, broken, arrows: self.vectors, history, wear: self.walls_colour }
     }
 
     /// What is not drawn.

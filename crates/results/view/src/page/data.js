@@ -71,8 +71,7 @@ const state = {
   cutAxis: -1, cutNormal: [0, 0, 1], cutAt: 0.5, cutSide: 1, cutThick: 0, cutGrains: true,
 };
 
-run.layers.forEach((layer, n) => { if (run.hidden.layers[n]) state.hidden.add(layer); });
-run.surfaces.forEach((surface, n) => { if (run.hidden.surfaces[n]) state.hidden.add(surface); });
+[...run.layers, ...run.surfaces].forEach((thing) => { if (thing.hidden) state.hidden.add(thing); });
 
 function fieldOf(layer, name) { return layer.fields.findIndex((f) => f.name === name); }
 

@@ -167,7 +167,6 @@ const painter = {
 
   // What a layer is coloured by in a frame: up to three columns, and how a program reads them.
   paint(layer, frame) {
-    if (isWorn(layer)) { const column = wornAt(layer); return { columns: [column, null, null], mode: 0, axis: -1, worn: column }; }
     const axis = ["x", "y", "z"].indexOf(state.field);
     const main = layer.role === mainRole;
     // A scan beside grains keeps the colours it came with.
@@ -183,8 +182,7 @@ const painter = {
     return { columns, mode: !coloured ? 0 : own ? 3 : about.kinds ? kinds : 1, axis: own ? -1 : axis };
   },
 
-  setPaint({ at }, { columns, mode, axis, worn: column }) {
-    setWorn({ at }, column);
+  setPaint({ at }, { columns, mode, axis }) {
     columns.forEach((column, n) => gl.uniform2f(at(`valueOf[${n}]`), column ? column[1] : 0, column ? column[2] - column[1] : 0));
     gl.uniform1i(at("mode"), mode);
     gl.uniform1i(at("axis"), axis);

@@ -36,7 +36,6 @@ function showLegend() {
   const about = mainRole === "walls" && worn.on ? null : describe(state.field);
   const bonds = run.layers.some((l) => l.role === "bonds");
   legend.hidden = !about && !bonds && !worn.on;
-  legend.classList.toggle("two", Boolean(about) && worn.on);
   if (about) legend.append(element("h2", about.unit ? `${about.name} [${about.unit}]` : about.name));
   if (about?.kinds && about.all[1] >= Math.max(run.kinds.length, about.codes?.length ?? 0)) {
     legend.append(element("p", "colours repeat"));
@@ -48,9 +47,9 @@ function showLegend() {
     const last = Math.max(1, about.classes.length - 1);
     legend.append(swatches(about.classes.map((name, k) => [mapAt(state.map, k / last), name])));
   } else if (about) {
-    showBar(legend, { ...about, shown: state.shown, map: state.map, log: false });
+    showBar(legend, { ...about, shown: state.shown, map: state.map });
   }
-  showWornLegend(legend);
+  showWornLegend(legend, about);
   if (bonds) legend.append(swatches([[WHOLE, "bond"], [BREAK, "crack"]]));
 }
 
@@ -66,36 +65,24 @@ function swatches(rows) {
 }
 
 // The marks of a bar: its ends, which are always labelled, and round values between that are not too near to them.
-function marksOf([lo, hi], log) {
+function marksOf([lo, hi]) {
   const step = roundBelow((hi - lo) / 4);
   const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step))));
-  const ticks = [];
-  if (log) {
-    const [first, last] = [Math.floor(Math.log10(lo)), Math.ceil(Math.log10(hi))];
-    for (let n = first; n <= last; n++) for (const m of last - first <= 2 ? [1, 2, 5] : [1]) ticks.push(m * 10 ** n);
-  } else {
-    for (let k = Math.ceil((lo - 1e-6 * step) / step); k * step <= hi + 1e-6 * step; k++) ticks.push(k * step);
-  }
-  const share = (v) => (log ? Math.log(v / lo) / Math.log(hi / lo) : (v - lo) / (hi - lo));
-  const label = (v) => (log ? significant(v) : number(v, decimals));
-  const inner = ticks.map((v) => [share(v), label(v)]).filter(([at]) => at >= 0.06 && at <= 0.94);
-  const end = (v) => { const t = label(v); return Math.abs(Number(t.replace("−", "-")) - v) <= 1e-3 * (hi - lo) ? t : significant(v); };
-  return [[0, end(lo)], ...inner, [1, end(hi)]];
+  const marks = [];
+  for (let k = Math.ceil(lo / step); k * step <= hi; k++) marks.push([(k * step - lo) / (hi - lo), number(k * step, decimals)]);
+  const end = (v) => (Math.abs(Number(v.toFixed(decimals)) - v) <= 1e-3 * (hi - lo) ? number(v, decimals) : significant(v));
+  return [[0, end(lo)], ...marks.filter(([at]) => at >= 0.06 && at <= 0.94), [1, end(hi)]];
 }
 
 // A number to three digits.
-function significant(value) {
-  const text = String(Number(value.toPrecision(3)));
-  return text.replace("-", "−");
-}
+const significant = (value) => String(Number(value.toPrecision(3))).replace("-", "−");
 
-function showBar(legend, about) {
+function showBar(legend, about, marksAt = marksOf) {
   const bar = element("div");
   bar.className = "bar";
   const stops = run.maps[about.map].map(css);
   bar.style.setProperty("--stops", stops.join(","));
-  const ends = about.shown.map((v) => v * about.factor);
-  const marks = marksOf(ends, about.log);
+  const marks = marksAt(about.shown.map((v) => v * about.factor));
   for (const [at, text] of marks) {
     const tick = element("span", text);
     tick.style.setProperty("--at", `${100 * at}%`);
@@ -106,9 +93,7 @@ function showBar(legend, about) {
   const beyond = [about.all[0] < about.shown[0] - slack, about.all[1] > about.shown[1] + slack];
   beyond.forEach((on, end) => { if (on) bar.append(Object.assign(element("b", undefined, { background: stops[end ? stops.length - 1 : 0] }), { className: end ? "above" : "below" })); });
   legend.append(bar);
-  const words = `${about.name} from ${marks[0][1]} to ${marks[marks.length - 1][1]} ${about.unit}`;
-  const before = legend.childElementCount > 2 ? `${legend.getAttribute("aria-label")}; ` : "Colour scale: ";
-  legend.setAttribute("aria-label", before + words);
+  legend.setAttribute("aria-label", `Colour scale: ${about.name} from ${marks[0][1]} to ${marks.at(-1)[1]} ${about.unit}`);
 }
 
 function readableLength(metres) {

@@ -4,6 +4,7 @@
 //! in memory can be shown; when the page grows beyond its limit, first the components of vectors are left out, of
 //! which the lengths stay, then every second frame, again and again; what is then still too big is refused.
 
+mod blobs;
 mod exact;
 mod fit;
 mod pack;

@@ -5,19 +5,11 @@ uniform vec2 valueOf[3];
 uniform int mode, axis;                 // mode 0 plain, 1 map, 2 kinds, 3 own colours, 4 clumps
 uniform vec2 shown;
 uniform vec3 plain, kinds[8];
-uniform sampler2D map, wallMap;
-uniform vec2 wornOf, wornShown;         // walls: lowest and range of a column, ends of the scale
-uniform int wornMode;                   // 0 none, 1 along a line, 2 along the logarithm
+uniform sampler2D map;
 
-// The colour of a part of a wall; sheet.vert has the same.
-vec3 wornColour(sampler2D of, int mode_, vec2 column, vec2 ends, float share) {
-  float value = column.x + share * column.y;
-  float at = mode_ == 2 ? log(max(value, 1e-30) / ends.x) / log(ends.y / ends.x) : (value - ends.x) / (ends.y - ends.x);
-  return texture(of, vec2(clamp(at, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
-}
-
+{{worn}}
 vec3 coloured(vec3 place, vec3 share) {
-  if (wornMode > 0) return wornColour(wallMap, wornMode, wornOf, wornShown, share.r);
+  if (wornMode > 0) return wornColour(share.r);
   float value = axis < 0 ? valueOf[0].x + share.r * valueOf[0].y : place[axis];
   if (mode == 1) return texture(map, vec2(clamp((value - shown.x) / (shown.y - shown.x), 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
   if (mode == 2) return kinds[int(value + 0.5) % 8];

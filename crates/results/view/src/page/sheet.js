@@ -177,18 +177,14 @@ const sheets = {
     // On dark paper a face of the same share would be as bright as the walls on it.
     const ground = surface.normal ? (paper()[0] < 0.5 ? 0.1 : 0.3) : 1;
     gl.uniform1f(at("hides"), width ? surface.ink : Math.min(state.opacity, ground));
-    if (!width) return this.drawFaces(part, this.program);
-    setWorn(this.program, null);
+    if (!width) return this.drawFaces(part);
     gl.bindVertexArray(lines.array);
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
   },
 
-  drawFaces(part, program) {
-    const coloured = isWorn(part.surface);
-    setWorn(program, coloured ? wornAt(part.surface) : null);
-    if (coloured) return wornMesh.draw(part);
-    gl.bindVertexArray(part.faces.array);
-    gl.drawElements(gl.TRIANGLES, part.faces.count, gl.UNSIGNED_INT, 0);
+  drawFaces({ faces }) {
+    gl.bindVertexArray(faces.array);
+    gl.drawElements(gl.TRIANGLES, faces.count, gl.UNSIGNED_INT, 0);
   },
 
   setView(view, size, glass) {

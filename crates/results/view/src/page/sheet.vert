@@ -6,9 +6,6 @@ layout(location = 0) in vec3 here;
 layout(location = 1) in vec3 there;   // the other end of a line
 layout(location = 2) in float share;  // what was done to the face, as a share of its column
 uniform vec3 plain;
-uniform sampler2D wallMap;
-uniform vec2 wornOf, wornShown;       // lowest and range of that column, ends of the scale
-uniform int wornMode;                 // 0 none, 1 along a line, 2 along the logarithm
 uniform mat3 turn, pose;
 uniform vec3 poseShift, eye;
 uniform vec2 focal, size;             // size of the picture in samples
@@ -17,19 +14,14 @@ uniform float flatView, width;        // width of a line in samples, 0 for faces
 out vec3 seen, place;
 flat out vec4 tone;                   // colour in full light, and how much less light changes it
 
-// As in paint.vert.
-vec3 wornColour() {
-  float value = wornOf.x + share * wornOf.y;
-  float at = wornMode == 2 ? log(max(value, 1e-30) / wornShown.x) / log(wornShown.y / wornShown.x) : (value - wornShown.x) / (wornShown.y - wornShown.x);
-  return texture(wallMap, vec2(clamp(at, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
-}
+{{worn}}
 
 vec3 placed(vec3 p) { return pose * p + poseShift; }
 
 vec4 clip(vec3 p) { return vec4(p.xy * focal, 0.0, flatView > 0.5 ? 1.0 : p.z); }
 
 void main() {
-  tone = wornMode > 0 ? vec4(wornColour(), 0.6) : vec4(plain, 0.0);
+  tone = wornMode > 0 ? vec4(wornColour(share), 0.6) : vec4(plain, 0.0);
   place = placed(here);
   seen = turn * (place - eye);
   gl_Position = clip(seen);

@@ -2,7 +2,7 @@
 // Until the reader asks for another opacity, coloured walls hide what is behind them: a colour that is seen through is another one.
 const opacityOf = (thing) => (isWorn(thing) && !worn.asked ? 1 : state.opacity);
 
-const worn = { asked: false, on: Boolean(run.walls), shown: run.walls?.shown, log: run.walls?.log ?? false };
+const worn = { asked: false, on: true, shown: run.walls.shown, log: run.walls.log };
 
 const isWorn = (thing) => worn.on && Boolean(thing.wear?.length);
 
@@ -31,7 +31,7 @@ function wornShare(value) {
 const WALL_UNIT = 8;
 function setWallMap() {
   const texels = new Uint8Array(1024);
-  for (let i = 0; i < 256; i++) texels.set([...mapAt(run.walls?.map ?? run.map, i / 255), 255], 4 * i);
+  for (let i = 0; i < 256; i++) texels.set([...mapAt(run.walls.map, i / 255), 255], 4 * i);
   gl.activeTexture(gl.TEXTURE0 + WALL_UNIT);
   const made = texture(256, 1, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE);
   for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, side, gl.LINEAR);
@@ -85,18 +85,47 @@ const wornMesh = {
   },
 };
 
+// Besides what programs draw without colours of walls, they are told of these.
+{
+  const [paint, setPaint, drawFaces] = [painter.paint, painter.setPaint, sheets.drawFaces];
+  painter.paint = (layer, frame) => (isWorn(layer) ? { columns: [wornAt(layer), null, null], mode: 0, axis: -1, worn: wornAt(layer) } : paint.call(painter, layer, frame));
+  painter.setPaint = (program, about) => { setWorn(program, about.worn); setPaint.call(painter, program, about); };
+  sheets.drawFaces = (part, program = sheets.program) => {
+    const coloured = isWorn(part.surface);
+    setWorn(program, coloured ? wornAt(part.surface) : null);
+    if (coloured) wornMesh.draw(part); else drawFaces.call(sheets, part);
+    // Lines have no values.
+    setWorn(program, null);
+  };
+}
+
+// What the card of a picked part shows.
+function wornRows(thing, row) {
+  if (!isWorn(thing)) return [];
+  const value = wornValue(thing, row);
+  return [{ name: run.walls.name, value, text: significant(value * run.walls.factor), unit: run.walls.unit }];
+}
+
+// Powers of ten between the ends; where they are few, 2 and 5 times them, too.
+function decades([lo, hi]) {
+  const [first, last] = [Math.floor(Math.log10(lo)), Math.ceil(Math.log10(hi))];
+  const steps = last - first <= 2 ? [1, 2, 5] : [1];
+  const ticks = Array.from({ length: last - first + 1 }, (_, n) => steps.map((step) => step * 10 ** (first + n))).flat();
+  const inner = ticks.map((v) => [Math.log(v / lo) / Math.log(hi / lo), significant(v)]).filter(([at]) => at >= 0.06 && at <= 0.94);
+  return [[0, significant(lo)], ...inner, [1, significant(hi)]];
+}
+
 // The part of the legend that is about walls.
-function showWornLegend(legend) {
+function showWornLegend(legend, about) {
+  legend.classList.toggle("two", Boolean(about) && worn.on);
   if (!worn.on) return;
   const { name, unit, factor, map, all } = run.walls;
   legend.append(element("h2", `walls: ${name} [${unit}]`));
-  showBar(legend, { name: `walls: ${name}`, unit, factor, all, shown: worn.shown, map, log: worn.log });
+  showBar(legend, { name: `walls: ${name}`, unit, factor, all, shown: worn.shown, map }, worn.log ? decades : marksOf);
 }
 
 // Settings.
 function wornChoices() {
-  byId("worn").hidden = !run.walls;
-  if (!run.walls) return;
   byId("worn-name").textContent = `Walls by ${run.walls.name}`;
   const fill = () => ["lo", "hi"].forEach((end, k) => { byId(`worn-${end}`).value = Number((worn.shown[k] * run.walls.factor).toPrecision(4)); });
   const show = () => { fill(); showLegend(); changed(); };

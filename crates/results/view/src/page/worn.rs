@@ -1,14 +1,11 @@
 //! What the parts of walls of a page are coloured by: a column of numbers for each time.
 
 use super::pack::Column;
-use super::{
-    Page,
-    write::{Blobs, is_shown},
-};
+use super::{Page, blobs::Blobs};
 use crate::appearance::scale::{Range, readable};
 use crate::appearance::wall_scale::WALL_MAP;
 use crate::things::wear_state::PartValues;
-use crate::{Map, ViewError, WearState};
+use crate::{Map, Role, ViewError, WearState};
 use record::WallsEnd;
 use serde_json::{Value, json};
 
@@ -44,9 +41,12 @@ impl WearTrack {
         self.states.iter().map(|(.., column)| column.bytes.len()).sum()
     }
 
-    /// As the page reads it.
-    pub(super) fn to_json<'a>(&'a self, blobs: &mut Blobs<'a>) -> Value {
-        self.states.iter().map(|(_, time, column)| json!([time, blobs.column(column)])).collect()
+    /// Adds its states to a layer or surface in the page.
+    pub(super) fn add_to<'a>(&'a self, thing: &mut Value, blobs: &mut Blobs<'a>) {
+        if !self.states.is_empty() {
+            let states = self.states.iter().map(|(_, time, column)| json!([time, blobs.column(column)]));
+            thing["wear"] = states.collect();
+        }
     }
 }
 
@@ -74,14 +74,21 @@ impl Page {
         self.fit()
     }
 
-    /// Which of the layers that are shown, and which surfaces, are hidden at first.
-    pub(super) fn hidden_json(&self) -> Value {
-        let hidden = &self.options.hidden;
-        let layers = self.layers.iter().filter(|layer| is_shown(layer));
-        let layers: Vec<bool> = layers.map(|layer| hidden.hides_layer(layer.role, &layer.name)).collect();
-        let surfaces: Vec<bool> =
-            self.surfaces.iter().map(|surface| hidden.hides_surface(&surface.name)).collect();
-        json!({ "layers": layers, "surfaces": surfaces })
+    /// A layer or surface in the page, marked where it is hidden at first.
+    pub(super) fn hidden(&self, role: Role, name: &str, mut thing: Value) -> Value {
+        if self.options.hidden.hides_layer(role, name) {
+            thing["hidden"] = true.into();
+        }
+        thing
+    }
+
+    /// The colour maps that a reader can choose, and that of walls where they are coloured.
+    pub(super) fn maps_json(&self) -> Value {
+        let used = |map: Map| map != WALL_MAP || self.options.walls.is_some() || self.options.map == WALL_MAP;
+        let maps = Map::ALL.iter().filter(|(_, map)| used(*map));
+        let maps: serde_json::Map<String, Value> =
+            maps.map(|(name, map)| ((*name).to_owned(), json!(map.anchors()))).collect();
+        maps.into()
     }
 
     /// What the colours of walls mean, as the page reads it.

@@ -2,6 +2,7 @@
 
 pub(crate) mod diagram;
 pub(crate) mod hidden;
+mod history;
 pub(crate) mod moment;
 pub(crate) mod only;
 pub(crate) mod run;

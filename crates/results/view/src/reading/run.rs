@@ -1,5 +1,6 @@
 //! Reads a run, or walls: grains and wall spheres over time, planes and meshes, how walls move, and what is shown besides.
 
+use crate::reading::history::History;
 use crate::reading::show::{LayerHead, Show};
 use crate::reading::worn::{ShownPart, WornWalls};
 use crate::things::extras;
@@ -32,6 +33,8 @@ struct ViewedRun<'a, S> {
     waiting: Option<(f64, Table)>,
     /// All walls, once the run has named them.
     walls: Option<Vec<WallHead>>,
+    /// When grains were first seen, where that is shown.
+    history: Option<History>,
     /// What grains did to walls, where that is shown.
     worn: Option<WornWalls>,
     /// Messages of each topic that is shown.
@@ -70,6 +73,7 @@ pub fn show_run(
         usual: 0.0,
         waiting: None,
         walls: None,
+        history: extras.history.then(History::default),
         worn: extras.wear.map(WornWalls::new),
         messages: BTreeMap::new(),
     };
@@ -150,6 +154,7 @@ impl<S: Show> ViewedRun<'_, S> {
             let share = broken.unwrap_or_else(|| vec![0.0; table.rows()]);
             table.replace(BROKEN, Values::F64(share)).map_err(|e| ViewError::Table { why: e.to_string() })?;
         }
+        self.history.as_mut().map_or(Ok(()), |history| history.add(time, &mut table))?;
         let arrows = match self.extras.arrows {
             Some(Arrows::Velocity) => Some(extras::velocities(&table)?),
             _ => None,

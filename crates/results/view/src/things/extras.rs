@@ -37,6 +37,8 @@ pub struct Extras {
     /// Grains get the field `broken`: the share of their bonds that are broken.
     pub broken: bool,
     pub arrows: Option<Arrows>,
+    /// Grains get the fields `residence` and `origin`: how long they have been there, and whether from the start.
+    pub history: bool,
     /// What the parts of walls are coloured by.
     pub wear: Option<WearField>,
 }
