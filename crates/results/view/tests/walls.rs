@@ -64,9 +64,9 @@ fn run(motion: &Motion, worn: bool) -> Vec<u8> {
     writer.bytes("/surfaces", "json", 0, text.as_bytes()).expect("written");
     let frames = [(0, vec![]), (500, vec![(3, 5.0), (4, 5.0)]), (1000, vec![(0, 10.0), (2, 10.0)])];
     for (ms, rows) in frames {
-        writer.points("/particles", ms * 1_000_000, "world", &grain(0.5)).expect("written");
+        writer.points("/particles", ms * 1_000_000, "world", grain(0.5)).expect("written");
         if worn {
-            writer.points("/wall_wear", ms * 1_000_000, "world", &wear(&rows)).expect("written");
+            writer.points("/wall_wear", ms * 1_000_000, "world", wear(&rows)).expect("written");
         }
     }
     writer.finish().expect("finished")
