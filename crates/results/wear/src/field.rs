@@ -1,4 +1,4 @@
-//! What can be told of a part of a wall, by name: densities over its area where a sum depends on how large it is.
+//! What is known of a part of a wall, by name: densities over its area where a sum depends on how large it is.
 
 use crate::PartLoad;
 

@@ -1,6 +1,6 @@
 //! What grains did to the spheres and triangles of walls, as a run adds it up over every step (topic `/wall_wear`).
 //!
-//! [`WallWear`] is a message, [`PartLoads`] sums messages up, [`WearField`] names what can be told of a part,
+//! [`WallWear`] is a message, [`PartLoads`] sums messages up, [`WearField`] names what is known of a part,
 //! [`of_spheres`] and [`of_triangles`] tell which area a part stands for, and [`Archard`] makes a depth of sliding work.
 //! Measures list it, pictures colour walls by it: both read it here.
 

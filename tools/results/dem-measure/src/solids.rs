@@ -65,7 +65,7 @@ impl Solids {
     }
 }
 
-/// Centres of spheres, then the corners of triangles: each triangle has corners of its own, which carry its numbers.
+/// Centres of spheres, then the corners of triangles: triangles do not share corners, so that the three of each carry its numbers.
 fn points(geometry: &Geometry) -> PolyData {
     let Geometry { heads, triangles, spheres } = geometry;
     let mut points = Vec::with_capacity(3 * (spheres.len() + 3 * triangles.len()));

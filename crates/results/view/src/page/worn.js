@@ -85,7 +85,7 @@ const wornMesh = {
   },
 };
 
-// Besides what programs draw without colours of walls, they are told of these.
+// What is drawn without colours of walls, and the colours besides.
 {
   const [paint, setPaint, drawFaces] = [painter.paint, painter.setPaint, sheets.drawFaces];
   painter.paint = (layer, frame) => (isWorn(layer) ? { columns: [wornAt(layer), null, null], mode: 0, axis: -1, worn: wornAt(layer) } : paint.call(painter, layer, frame));

@@ -35,7 +35,7 @@ pub(super) struct ContactLoads {
     by_sphere: BTreeMap<usize, ContactLoad>,
     by_cell: BTreeMap<[i64; 3], ContactLoad>,
     near: Option<NearSpheres>,
-    /// Frames with contacts, and those of them that could be told apart.
+    /// Frames with contacts, and those of them that count.
     pub seen: u64,
     pub frames: u64,
     /// Contacts that no sphere is near to.
