@@ -71,7 +71,7 @@ const state = {
   cutAxis: -1, cutNormal: [0, 0, 1], cutAt: 0.5, cutSide: 1, cutThick: 0, cutGrains: true,
 };
 
-[...run.layers, ...run.surfaces].forEach((thing) => { if (thing.hidden) state.hidden.add(thing); });
+for (const l of [...run.layers, ...run.surfaces]) if (l.hidden) state.hidden.add(l);
 
 function fieldOf(layer, name) { return layer.fields.findIndex((f) => f.name === name); }
 

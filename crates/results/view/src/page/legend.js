@@ -75,7 +75,7 @@ function marksOf([lo, hi]) {
 }
 
 // A number to three digits.
-const significant = (value) => String(Number(value.toPrecision(3))).replace("-", "−");
+const significant = (v) => String(Number(v.toPrecision(3))).replace("-", "−");
 
 function showBar(legend, about, marksAt = marksOf) {
   const bar = element("div");

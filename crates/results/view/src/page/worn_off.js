@@ -2,4 +2,4 @@
 const worn = { on: false };
 const isWorn = () => false;
 const opacityOf = () => state.opacity;
-const setWallMap = () => {}, showWornLegend = () => {}, wornChoices = () => {}, wornRows = () => [];
+const setWallMap = () => [], showWornLegend = setWallMap, wornChoices = setWallMap, wornRows = setWallMap;
