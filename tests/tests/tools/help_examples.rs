@@ -31,6 +31,7 @@ fn given(folder: &Path) {
     succeed(folder, "dem-run", &["heap.toml", "-o", "heap.mcap"]);
     rename("heap.mcap", "soil.mcap");
     succeed(folder, "dem-run", &["bonded.toml", "-o", "bonded.mcap"]);
+    succeed(folder, "dem-run", &["worn.toml", "-o", "worn.mcap"]);
     for stage in ["upstream", "downstream"] {
         let file = if stage == "upstream" { "up.toml" } else { "down.toml" };
         succeed(

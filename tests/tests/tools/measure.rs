@@ -7,6 +7,7 @@ mod cracks;
 mod documented;
 mod flow;
 mod kinds;
+mod lasting;
 mod made;
 mod refused;
 mod specimen;

@@ -25,6 +25,7 @@ mod surface;
 mod table;
 mod times;
 pub mod topic;
+mod walls_end;
 
 pub use clump::ClumpRecord;
 pub use columns::{Columns, hash};
@@ -38,6 +39,7 @@ pub use stop::{Guard, ReportedStop, StopCause};
 pub use surface::{SurfaceShape, WallRecord, home, moved, to_json as motion_to_json};
 pub use table::TableBuilder;
 pub use times::RunTimes;
+pub use walls_end::WallsEnd;
 
 /// Metadata of one record: text by key.
 pub type Map = std::collections::BTreeMap<String, String>;

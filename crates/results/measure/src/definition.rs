@@ -183,6 +183,10 @@ pub struct Asked<'a> {
     pub sieves: Option<Vec<f64>>,
     /// The wall that counts, by name or index.
     pub wall: Option<String>,
+    /// Worn volume per sliding work [m³/J]: of a material by name, or of all.
+    pub wear_coefficients: Vec<(Option<String>, f64)>,
+    /// Thickness of walls [m].
+    pub thickness: Option<f64>,
     /// Whether forces on walls are meant.
     pub on_walls: bool,
     /// Whether forces are those of the instants of frames, not means over the steps between them.

@@ -89,8 +89,24 @@ pub enum MeasureError {
          with --wall NAME for one wall, or set [output] contacts = true and run again"
     )]
     WholeWalls,
-    #[error("no material or wall '{name}'; there are {}", has.join(", "))]
+    #[error(
+        "--wear-coefficient: no material '{name}' in this run; there are {}: give the name of one, or K alone for all",
+        has.join(", ")
+    )]
+    Material { name: String, has: Vec<String> },
+    #[error("no material '{name}'; there are {}: give one of these names", has.join(", "))]
     Name { name: String, has: Vec<String> },
+    #[error(
+        "--wall: no wall '{name}' in this run; by number and name there are {}: give one of these",
+        numbered(has)
+    )]
+    Wall { name: String, has: Vec<String> },
+}
+
+/// `0 floor, 1 lid`.
+fn numbered(names: &[String]) -> String {
+    let all: Vec<String> = names.iter().enumerate().map(|(k, name)| format!("{k} {name}")).collect();
+    all.join(", ")
 }
 
 /// Grains above the heap are the likelier cause.

@@ -29,11 +29,11 @@ pub use geometry::{ball, cylinder, extent, periodic, region};
 pub use mechanics::{coordination, domain, energy, fabric, forces, plane_force, settling, strain, stress};
 pub use observer::{Observer, OfFrame, PerFrame};
 pub use reading::{
-    Contact, Contacts, Crossing, ForceOnWall, Frame, Ledger, PartWear, Partner, Run, RunMessage, Selected,
-    WallForces, WallMeans, WallWear,
+    Contact, Contacts, Crossing, ForceOnWall, Frame, Ledger, Partner, Run, RunMessage, Selected, WallForces,
+    WallMeans,
 };
 pub use reading::{WallSpheres, Which, path, run, selection, settled};
 pub use shape::{bed, radial, repose};
-pub use sheet::{Chart, Curve, Head, Look, Panel, Row, Summary};
+pub use sheet::{Chart, Curve, Geometry, Head, Look, Panel, Row, Summary};
 pub use transport::{flow, residence, track};
 pub use walls::{impact, wall_force, wear};

@@ -1,6 +1,6 @@
 //! What all measures of a run share: they read it event by event and return rows.
 
-use crate::{Chart, Frame, Head, MeasureError, Row, Run, RunMessage, Summary};
+use crate::{Chart, Frame, Geometry, Head, MeasureError, Row, Run, RunMessage, Summary};
 use geom::{Shape, Vec3};
 
 /// Something measured on a run while it comes.
@@ -19,6 +19,13 @@ pub trait Observer {
     fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError>;
     /// What to draw, from all rows that were given.
     fn chart(&self, rows: &[Row]) -> Chart;
+    /// What it has measured, as geometry: after [`Observer::end`].
+    ///
+    /// # Errors
+    /// It has none; why, and what to do.
+    fn geometry(&self) -> Result<Geometry, &'static str> {
+        Err("only --wear has a geometry: name the output .csv")
+    }
     /// Whether a frame holds grains that it counts: the last of those is the last frame.
     fn counts(&self, _: &Run, frame: &Frame) -> bool {
         !frame.is_empty()
@@ -180,7 +187,7 @@ impl<M: OfFrame> Observer for PerFrame<M> {
 
 /// Whether a grain has fallen past all walls.
 fn has_fallen(run: &Run, frame: &Frame, row: usize) -> bool {
-    run.walls_end.is_some_and(|(down, depth)| frame.position[row].dot(&down) - frame.radius[row] > depth)
+    run.walls_end.is_some_and(|end| end.is_past(&frame.position[row], frame.radius[row]))
 }
 
 /// A row at a time [s] in which nothing else is defined.

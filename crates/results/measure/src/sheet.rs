@@ -1,5 +1,7 @@
 //! Results: rows of numbers under named columns with units, a summary, and what to plot.
 
+use geom::Vec3;
+
 /// Name and unit of a column or of a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Head {
@@ -18,6 +20,17 @@ impl Head {
 
 /// One row: a number for each column; NaN where there is none.
 pub type Row = Vec<f64>;
+
+/// Triangles and spheres with numbers, for programs that show them in space.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Geometry {
+    /// Names and units of the numbers.
+    pub heads: Vec<Head>,
+    /// Corners [m], and numbers.
+    pub triangles: Vec<([Vec3; 3], Row)>,
+    /// Centre and radius [m], and numbers.
+    pub spheres: Vec<(Vec3, f64, Row)>,
+}
 
 /// Results in sum, by name.
 #[derive(Debug, Clone, Default, PartialEq)]

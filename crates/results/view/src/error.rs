@@ -68,6 +68,17 @@ pub enum ViewError {
     /// A message without its columns.
     #[error("{topic}: columns are missing: write the run with dem-run")]
     Columns { topic: &'static str },
+    /// A message of wear that cannot be read.
+    #[error(
+        "/wall_wear at {} s: {why}: the run is damaged here: show it without --walls-colour, or run again",
+        geom::Shown(*time)
+    )]
+    Wear { time: f64, why: String },
+    /// A map of nothing.
+    #[error(
+        "--walls-colour: no grain has touched a triangle or wall sphere so far, so there is nothing to colour: run longer, or leave it out"
+    )]
+    Untouched,
     /// Columns that do not make a table.
     #[error("cannot make a table of what is shown: {why}")]
     Table {
@@ -83,6 +94,9 @@ pub enum ViewError {
         /// The names there are.
         known: Vec<String>,
     },
+    /// Something to hide that is not there.
+    #[error("--hide: no '{name}' here: choose one of {}", known.join(", "))]
+    NoHidden { name: String, known: Vec<String> },
     /// A material that the run does not have.
     #[error("only: no material '{name}' here: {}", match known.len() {
         0 => "materials have numbers alone, so give one, such as material=1".to_owned(),

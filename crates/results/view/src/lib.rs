@@ -17,11 +17,13 @@ pub mod vtk;
 
 pub use appearance::camera::Camera;
 pub use appearance::colour::{Map, Rgb};
+pub use appearance::wall_scale::WallScale;
 pub use error::ViewError;
 pub use geom::Motion;
 pub use page::{Page, PageContent, PageOptions};
 pub use picture::{DrawnTable, Image, PictureOptions, Survey};
 pub use reading::diagram::{Diagram, DiagramCurve};
+pub use reading::hidden::Hidden;
 pub use reading::moment::Moment;
 pub use reading::only::{Chosen, Only, Wanted};
 pub use reading::run::show_run;
@@ -31,6 +33,8 @@ pub use record::SurfaceShape;
 pub use things::bodies::GrainCount;
 pub use things::extras::{Arrows, Extras};
 pub use things::surface::WallSurface;
+pub use things::wear_state::{PartValues, WearState};
+pub use wear::WearField;
 
 /// What a table of spheres or points is, and so how it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

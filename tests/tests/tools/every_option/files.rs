@@ -12,6 +12,13 @@ const TETRAHEDRON: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty flo
                            property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n\
                            0 0 0\n0.3 0 0\n0 0.3 0\n0 0 0.3\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
+/// A slope below the grains.
+const TILE: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+                    element face 2\nproperty list uchar int vertex_indices\nend_header\n\
+                    0 0 0.01\n0.1 0 0\n0.1 0.06 0\n0 0.06 0.01\n3 0 1 2\n3 0 2 3\n";
+
+const SLOPE: &str = "[[wall]]\nname = \"slope\"\nmesh = \"tile.ply\"\nmaterial = \"sinter\"\n";
+
 const PRISM: &str = r#"{"polygon": [[-1,-1,-1],[0.1,-1,-1],[0.1,1,-1],[-1,1,-1]], "extrusion": [0,0,2]}"#;
 
 const REGIONS: &str = "[[region]]\nname = \"left\"\nshape = \"box:-1,-1,-1,0.1,1,1\"\naction = \"keep\"\n";
@@ -186,6 +193,8 @@ pub fn inputs() -> TempDir {
         ("library/rock_1_1.ply", TETRAHEDRON.replace("0.3", "0.06")),
         ("grading.csv", "from,to,share\n0.02,0.03,1\n".to_owned()),
         ("s.toml", [HEAD, GRAINS, &floor(0.0)].concat()),
+        ("tile.ply", TILE.to_owned()),
+        ("worn.toml", [&HEAD.replace("energy = true", "wear = true"), GRAINS, SLOPE].concat()),
         ("heap.toml", [&HEAD.replace("until = 0.05", "until = 0.004"), HEAP, &floor(0.0)].concat()),
         (
             "bonded.toml",

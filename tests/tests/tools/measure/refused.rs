@@ -96,7 +96,7 @@ const OF_CONTACTS: &[Case] = &[
     },
     Case {
         arguments: &["--wall-force", "all", "--wall", "roof"],
-        parts: &["no material or wall 'roof'", "floor, side"],
+        parts: &["--wall: no wall 'roof' in this run", "0 floor, 1 side: give one of these"],
     },
     Case {
         arguments: &["--segregation", "--kind", "a", "--cell", "1e-300"],
@@ -104,7 +104,7 @@ const OF_CONTACTS: &[Case] = &[
     },
     Case {
         arguments: &["--segregation", "--kind", "z"],
-        parts: &["no material or wall 'z'; there are a, b"],
+        parts: &["no material 'z'; there are a, b: give one of these names"],
     },
 ];
 

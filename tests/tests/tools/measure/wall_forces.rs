@@ -49,7 +49,7 @@ fn a_part_of_a_wall_needs_contacts() {
         assert!(message.contains(part), "{part}: {message}");
     }
     let message = failed(&folder, &["--wall-force", "all", "--wall", "roof"]);
-    assert!(message.contains("no material or wall 'roof'; there are floor, lid"), "{message}");
+    assert!(message.contains("--wall: no wall 'roof' in this run; by number and name there are 0 floor, 1 lid: give one of these"), "{message}");
     let mut made = Made::new("");
     made.json("/wall_forces", 0.0, r#"{"time": 0, "walls": [{"name": "floor", "force": [0, 1]}]}"#);
     let message = failed(&saved(made), &["--wall-force", "all"]);

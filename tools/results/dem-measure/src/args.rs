@@ -20,6 +20,7 @@ const SHAPES: &str = "SHAPE: box:x0,y0,z0,x1,y1,z1 | sphere:x,y,z,r | cylinder:x
     \x20 dem-measure run.mcap --flow 0,0,0.02,0,0,-1 --plot flow.svg -o flow.csv\n\
     \x20 dem-measure run.mcap --porosity box:0,0,0,0.05,0.05,0.02\n\
     \x20 dem-measure run.mcap --wall-force all --wall floor\n\
+    \x20 dem-measure worn.mcap --wear all --wear-coefficient 1e-13 --thickness '12 mm' -o worn.vtp\n\
     \x20 dem-measure bonded.mcap --bonds --plot bonds.svg\n\
     \x20 dem-measure bonded.mcap --grading --sieves 0.004,0.008,0.016";
 
@@ -107,6 +108,12 @@ pub struct Args {
     /// Only this wall, by name or index [wall-force, wear]
     #[arg(long, value_name = "WALL", help_heading = "How")]
     pub wall: Option<String>,
+    /// Worn volume per sliding work K [m³/J], of all walls or of those of a material (repeat): adds the depth, and the rate in 1000 h [wear]
+    #[arg(long, value_name = "K|NAME=K", value_parser = coefficient, help_heading = "How")]
+    pub wear_coefficient: Vec<(Option<String>, f64)>,
+    /// Thickness of the walls [m], or with a unit: adds the hours until it is worn through [wear]
+    #[arg(long, value_name = "M", value_parser = cli::length, help_heading = "How")]
+    pub thickness: Option<f64>,
     /// Forces on walls instead of forces between grains [forces]
     #[arg(long, help_heading = "How")]
     pub on_walls: bool,
@@ -175,6 +182,20 @@ pub fn side(text: &str) -> Result<Vec3, String> {
     let names = ["x-", "x+", "y-", "y+", "z-", "z+"];
     let found = names.iter().position(|name| *name == text).ok_or("give one of x- x+ y- y+ z- z+")?;
     Ok(Vec3::ith(found / 2, if found % 2 == 0 { -1.0 } else { 1.0 }))
+}
+
+/// `K` or `NAME=K`.
+fn coefficient(text: &str) -> Result<(Option<String>, f64), String> {
+    let (name, number) = match text.rsplit_once('=') {
+        Some((name, number)) => (Some(name.trim()), number),
+        None => (None, text),
+    };
+    let such = "give a volume per work in m³/J, such as 1e-13, or that of a material: steel=1e-13";
+    let value = number.trim().parse().ok().filter(|k: &f64| *k > 0.0 && *k < 1.0).ok_or(such)?;
+    match name {
+        Some("") => Err(such.to_owned()),
+        name => Ok((name.map(str::to_owned), value)),
+    }
 }
 
 fn axis(text: &str) -> Result<usize, String> {

@@ -69,6 +69,8 @@ fn asked<'a>(
         kind: args.kind.clone(),
         sieves: args.sieves.as_ref().map(|sieves| sieves.0.clone()),
         wall: args.wall.clone(),
+        wear_coefficients: args.wear_coefficient.clone(),
+        thickness: args.thickness,
         on_walls: args.on_walls,
         instants: args.instants,
     }

@@ -5,12 +5,12 @@ mod around;
 mod choose;
 mod measures;
 mod sheet;
+mod solids;
 
 use anyhow::{Context, anyhow};
 use args::Args;
 use cli::{Progress, Report};
 use measure::{Row, Run, Summary};
-use sheet::Sheet;
 use std::io::Write;
 use std::process::ExitCode;
 use stream::mcap::Reader;
@@ -25,8 +25,9 @@ fn measure_run(args: Args) -> anyhow::Result<Report> {
         plot::check_name(file).map_err(|e| cli::usage(format!("--plot {e}")))?;
     }
     let place = || format!("{}: {what}", args.run);
+    let solids = solids::Solids::of(&args)?;
     let source = args.run.open()?;
-    let mut sheet = Sheet::new(args.output.open_text()?, args.json, &what);
+    let mut sheet = solids.sheet(&args, &what)?;
     // Rows are kept only where they are drawn: a run may be longer than the memory.
     let (mut run, mut rows, mut kept): (Run, Vec<Row>, Vec<Row>) = Default::default();
     let progress = Progress::new("frames", 0);
@@ -36,7 +37,7 @@ fn measure_run(args: Args) -> anyhow::Result<Report> {
         if let Some(message) = run.take(event).with_context(place)? {
             progress.add(u64::from(matches!(message, measure::RunMessage::Frame(_))));
             observer.observe(&run, message, &mut rows).with_context(place)?;
-            sheet.rows(&observer.heads(), &rows)?;
+            sheet.as_mut().map_or(Ok(()), |sheet| sheet.rows(&observer.heads(), &rows))?;
             kept.append(&mut if args.plot.is_some() { std::mem::take(&mut rows) } else { Vec::new() });
             rows.clear();
         }
@@ -44,7 +45,10 @@ fn measure_run(args: Args) -> anyhow::Result<Report> {
     drop(progress);
     run.ending.warning().iter().for_each(|warning| cli::warn(&format!("{}: {warning}", args.run)));
     let summary = observer.end(&run, &mut rows).with_context(place)?;
-    let count = sheet.finish(&observer.heads(), &rows, &summary)?;
+    let count = match sheet {
+        Some(sheet) => sheet.finish(&observer.heads(), &rows, &summary)?,
+        None => solids.write(&args, observer.as_ref()).map(|()| rows.len() as u64)?,
+    };
     kept.append(&mut rows);
     if let Some(file) = &args.plot {
         let mut out = cli::OutputStream::file(file)?;

@@ -3,7 +3,7 @@
 use crate::formats::{self, Format};
 use clap::Parser;
 use cli::{OutPath, Source};
-use view::{Arrows, Camera, Extras, Map, Only, PictureOptions, Span};
+use view::{Arrows, Camera, Extras, Hidden, Map, Only, PictureOptions, Span, WallScale, WearField};
 
 /// What is smaller in a picture is hardly seen [pixel].
 const SMALL: u32 = 24;
@@ -35,16 +35,31 @@ pub struct Args {
     #[arg(id = "output", short = 'o', long = "output", value_name = "FILE")]
     pub file: Option<OutPath>,
     /// Field to colour by: speed, spin, radius, size (classes of diameter), material, broken (share of a grain's bonds that are
-    /// broken), id, x, y, z, rgb, or any column [default: speed, else z]
+    /// broken), residence (time since the first frame with the grain), origin (there at the start, or came in later), id, x, y, z, rgb, or
+    /// any column [default: speed, else z]
     #[arg(long, visible_alias = "color", value_name = "FIELD")]
     pub colour: Option<String>,
-    /// Show only the grains with this value of a field, or with one from LO to HI [SI]; a material by name
+    /// Show only the grains with this value of a field, or with one from LO to HI [SI]; a material by name. Repeat: grains that have all of
+    /// them
     #[arg(long, value_name = "FIELD=LO,HI", value_parser = formats::only)]
-    pub only: Option<Only>,
+    pub only: Vec<Only>,
+    /// Leave out what has this name: grains, walls, cloud, bonds, arrows, or a wall (repeat). A page can show it again
+    #[arg(long, value_name = "NAME")]
+    pub hide: Vec<String>,
     /// Ends of the colour scale in SI units [default: the range of 98 % of the values]
     #[arg(long, value_name = "LO,HI", value_parser = formats::range, allow_hyphen_values = true)]
     pub range: Option<[f64; 2]>,
-    /// Colour map: viridis or turbo [default: viridis]
+    /// Colour the triangles and spheres of walls by what grains did to them so far (needs [output] wear = true): sliding_work, impact_energy,
+    /// impact_normal, impact_tangential, impacts, largest_normal, pressure; sums are per area
+    #[arg(long, visible_alias = "walls-color", value_name = "FIELD", value_parser = formats::wear_field)]
+    pub walls_colour: Option<WearField>,
+    /// Ends of the scale of --walls-colour in SI units [default: 0 and what 99 % of the touched parts do not exceed]
+    #[arg(long, value_name = "LO,HI", value_parser = formats::range, requires = "walls_colour")]
+    pub walls_range: Option<[f64; 2]>,
+    /// Colour walls along the logarithm [default range: up to four decades]
+    #[arg(long, requires = "walls_colour")]
+    pub walls_log: bool,
+    /// Colour map: viridis, turbo or heat [default: viridis]
     #[arg(long, value_name = "NAME", value_parser = formats::map)]
     pub map: Option<Map>,
     /// Time to show [s]. HTML: shown first, paused; PNG, VTP: the nearest frame [default: the last frame with grains]
@@ -70,7 +85,7 @@ pub struct Args {
     /// Size of a picture or film [pixel], 36 bytes of memory each [default: 1920x1080, GIF 960x540]
     #[arg(long, value_name = "WxH", value_parser = formats::size)]
     pub size: Option<[u32; 2]>,
-    /// Opacity of walls in front of grains in the picture, 0 to 1 [default: 0.2]
+    /// Opacity of walls in front of grains in the picture, 0 to 1 [default: 0.2; 1 of those that --walls-colour colours]
     #[arg(long, value_name = "SHARE", value_parser = formats::share)]
     pub wall_opacity: Option<f64>,
     /// Draw the bonds of a run, and a disc where one broke; grains at half their size
@@ -103,7 +118,7 @@ impl Args {
     /// Refuses options that change nothing in this kind of output.
     pub fn check(&self, format: Format) -> anyhow::Result<()> {
         use Format::{Gif, Html, Mp4, Png, Pvd, Vtp};
-        let options: [(&str, bool, &[Format]); 19] = [
+        let options: [(&str, bool, &[Format]); 21] = [
             ("--pick", self.pick, &[Html]),
             ("--title", self.title.is_some(), &[Html]),
             ("--max-mb", self.max_mb.is_some(), &[Html]),
@@ -114,6 +129,8 @@ impl Args {
             ("--every", self.every.is_some(), &[Gif, Mp4, Pvd]),
             ("--fps", self.fps.is_some(), &[Gif, Mp4]),
             ("--colour", self.colour.is_some(), &[Html, Png, Gif, Mp4]),
+            ("--walls-colour", self.walls_colour.is_some(), &[Html, Png, Gif, Mp4]),
+            ("--hide", !self.hide.is_empty(), &[Html, Png, Gif, Mp4]),
             ("--range", self.range.is_some(), &[Html, Png, Gif, Mp4]),
             ("--map", self.map.is_some(), &[Html, Png, Gif, Mp4]),
             ("--camera", self.camera.is_some(), &[Html, Png, Gif, Mp4]),
@@ -133,12 +150,23 @@ impl Args {
 
     /// Refuses options that change nothing in what is shown.
     fn check_content(&self) -> anyhow::Result<()> {
-        let of_runs = [("--bonds", self.bonds), ("--vectors", self.vectors.is_some())];
+        let of_runs = [
+            ("--bonds", self.bonds),
+            ("--vectors", self.vectors.is_some()),
+            ("--walls-colour", self.walls_colour.is_some()),
+        ];
+        if self.walls_log
+            && let Some([lo, _]) = self.walls_range.filter(|[lo, _]| *lo <= 0.0)
+        {
+            return Err(cli::usage(format!(
+                "--walls-range: {lo} has no logarithm: give a lower end above 0, or leave --walls-log out"
+            )));
+        }
         if let Some((name, _)) = of_runs.iter().find(|(_, given)| *given && self.pick) {
             return Err(cli::usage(format!("{name}: a cloud has none: leave it out")));
         }
         let others = [("--bonds", self.bonds), ("--vectors", self.vectors.is_some()), ("--pick", self.pick)];
-        if let Some((name, _)) = others.iter().find(|(_, given)| *given && self.only.is_some()) {
+        if let Some((name, _)) = others.iter().find(|(_, given)| *given && !self.only.is_empty()) {
             return Err(cli::usage(format!(
                 "--only: chooses grains, and not what {name} shows: leave one of them out"
             )));
@@ -173,7 +201,11 @@ impl Args {
             (
                 "--wall-opacity",
                 self.wall_opacity.is_some_and(|given| given != plain.wall_opacity),
-                PictureOptions { wall_opacity: plain.wall_opacity, ..options.clone() },
+                PictureOptions {
+                    wall_opacity: plain.wall_opacity,
+                    coloured_opacity: plain.coloured_opacity,
+                    ..options.clone()
+                },
             ),
             (
                 "--map",
@@ -219,8 +251,23 @@ impl Args {
 
     /// What is shown of a run besides grains and walls.
     pub fn extras(&self) -> Extras {
+        let asked = |name: &str| {
+            self.colour.as_deref() == Some(name) || self.only.iter().any(|only| only.field == name)
+        };
+        let history = asked("residence") || asked("origin");
         let broken = self.bonds || self.colour.as_deref() == Some("broken");
-        Extras { bonds: self.bonds, broken, arrows: self.vectors }
+        Extras { bonds: self.bonds, broken, arrows: self.vectors, history, wear: self.walls_colour }
+    }
+
+    /// What is not drawn.
+    pub fn hidden(&self) -> Hidden {
+        Hidden(self.hide.clone())
+    }
+
+    /// What walls are coloured by.
+    pub fn walls(&self) -> Option<WallScale> {
+        let field = self.walls_colour?;
+        Some(WallScale { field, range: self.walls_range, log: self.walls_log })
     }
 
     /// The part of a run that a film or series shows.
@@ -245,8 +292,13 @@ impl Args {
             range: self.range,
             time: None,
             wall_opacity: self.wall_opacity.unwrap_or(PictureOptions::default().wall_opacity),
+            coloured_opacity: self.wall_opacity.unwrap_or(PictureOptions::default().coloured_opacity),
             cut: self.cut,
             dark: self.dark,
+            hidden: self.hidden(),
+            walls_end: None,
+            walls: self.walls(),
+            surface_values: Vec::new(),
         }
     }
 }

@@ -23,7 +23,7 @@ pub fn warn_of_outside([outside, all]: [usize; 2], what: &str) {
     if outside > 0 {
         let are = if outside == 1 { "is" } else { "are" };
         cli::warn(&format!(
-            "{outside} of {all} grains {are} outside {what}, far from the others: a --camera x,y,z farther away shows all"
+            "{outside} of {all} grains {are} outside {what}, fallen past all walls or far from the others: a --camera x,y,z farther away shows all"
         ));
     }
 }

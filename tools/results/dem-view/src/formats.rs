@@ -1,7 +1,7 @@
 //! What the command line's words stand for.
 
 use cli::Output;
-use view::{Arrows, Camera, Map, Only, Wanted};
+use view::{Arrows, Camera, Map, Only, Wanted, WearField};
 
 /// What is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,6 +49,9 @@ impl Format {
     pub fn instead_of(self, option: &str) -> &'static str {
         match (option, self) {
             ("--from" | "--to" | "--every", Format::Png | Format::Vtp) => "use --time for one moment",
+            ("--walls-colour", Format::Vtp | Format::Pvd) => {
+                "dem-measure RUN --wear all -o NAME.vtp writes walls with all that was done to them"
+            }
             ("--time", _) => "give a film or series its --from and --to",
             _ => "leave it out, or give -o such an ending",
         }
@@ -81,7 +84,13 @@ pub fn only(text: &str) -> Result<Only, String> {
 
 /// The name of a colour map.
 pub fn map(text: &str) -> Result<Map, String> {
-    Map::named(text).ok_or_else(|| "give viridis or turbo".into())
+    Map::named(text).ok_or_else(|| "give viridis, turbo or heat".into())
+}
+
+/// What walls are coloured by.
+pub fn wear_field(text: &str) -> Result<WearField, String> {
+    let names = || WearField::ALL.map(WearField::name).join(", ");
+    WearField::named(text).ok_or_else(|| format!("give one of {}", names()))
 }
 
 /// What arrows show.

@@ -56,6 +56,11 @@ pub fn read_watched(
         }
         let layers = match is_mcap {
             true => {
+                if args.walls_colour.is_some() && runs {
+                    return Err(cli::usage(format!(
+                        "--walls-colour: {source} is a second run (MCAP), and walls that both have would need two colours: give one run"
+                    )));
+                }
                 runs = true;
                 run(whole, source, args, &mut chosen, watch)
             }
@@ -66,9 +71,9 @@ pub fn read_watched(
         };
         found.extend(layers.with_context(|| source.to_string())?);
     }
-    if let Some(option) = ["--bonds", "--vectors"]
+    if let Some(option) = ["--bonds", "--vectors", "--walls-colour"]
         .into_iter()
-        .zip([args.bonds, args.vectors.is_some()])
+        .zip([args.bonds, args.vectors.is_some(), args.walls_colour.is_some()])
         .find(|(_, on)| *on && !runs)
     {
         return Err(cli::usage(format!("{}: no input is a run (MCAP): leave it out", option.0)));
@@ -85,8 +90,8 @@ pub fn read_watched(
     {
         return Err(cli::usage(format!("{option}: meshes have no field to colour by: leave it out")));
     }
-    chosen.check()?;
-    if args.only.is_some() {
+    chosen.check(&args.hidden())?;
+    if !args.only.is_empty() {
         match chosen.counts() {
             [_, 0] => return Err(cli::usage("--only: no input has grains: leave it out")),
             [0, _] => anyhow::bail!("--only: no grain has such a value: give another range"),

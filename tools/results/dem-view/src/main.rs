@@ -42,8 +42,13 @@ fn show(mut args: Args) -> anyhow::Result<Report> {
 fn png(args: &Args, output: &Output) -> anyhow::Result<Report> {
     let mut moment = Moment::at(args.time);
     let seen = inputs::read_all(args, &mut moment)?;
-    moment.settle();
-    let options = PictureOptions { time: moment.time(), ..args.picture(Format::Png) };
+    moment.settle()?;
+    let options = PictureOptions {
+        time: moment.time(),
+        surface_values: moment.surface_values(),
+        walls_end: moment.walls_end,
+        ..args.picture(Format::Png)
+    };
     let image = picture::png(&moment.parts(), moment.surfaces(), &options)?;
     for (name, without) in args.doubtful(&options) {
         if picture::png(&moment.parts(), moment.surfaces(), &without)? == image {

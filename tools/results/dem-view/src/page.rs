@@ -26,6 +26,8 @@ pub fn html(args: &Args, output: &Output) -> anyhow::Result<Report> {
         most_bytes: (args.max_mb() * 1e6) as usize,
         components: args.components,
         dark: args.dark,
+        hidden: args.hidden(),
+        walls: args.walls(),
         pick: if args.pick { names.first().cloned() } else { None },
     });
     let (mut measured, mut endings) = (Diagrams::default(), BTreeMap::<String, Ending>::new());

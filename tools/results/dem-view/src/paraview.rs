@@ -12,7 +12,7 @@ use view::{
 pub fn vtp(args: &Args, output: &Output) -> anyhow::Result<Report> {
     let mut moment = Moment::at(args.time);
     let seen = inputs::read_all(args, &mut moment)?;
-    moment.settle();
+    moment.settle()?;
     let data = vtk::moment(&moment.parts(), moment.surfaces(), moment.time())?;
     let mut out = output.open()?;
     data.write(&mut out).with_context(|| output.name())?;

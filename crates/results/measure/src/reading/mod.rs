@@ -4,14 +4,13 @@ mod clumped;
 mod frame;
 pub mod path;
 pub mod run;
+mod scene_value;
 pub mod selection;
 pub mod settled;
 pub(crate) mod table;
 mod wall_record;
-mod wall_wear;
 
 pub use frame::{Contact, Contacts, Crossing, Frame, Partner};
 pub use run::{Ledger, Run, RunMessage, WallSpheres};
 pub use selection::{Selected, Which};
 pub use wall_record::{ForceOnWall, WallForces, WallMeans};
-pub use wall_wear::{PartWear, WallWear};

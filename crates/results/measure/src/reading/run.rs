@@ -1,11 +1,12 @@
 //! A run, event by event: its metadata and its data.
 
+use super::scene_value::vector;
 use super::table::Columns;
 use crate::bonds::Crack;
 use crate::periodic::PeriodicBox;
 use crate::reading::frame::{Contacts, Crossing, Frame};
 use crate::settled::Settled;
-use crate::{Bonds, MeasureError, WallForces, WallWear};
+use crate::{Bonds, MeasureError, WallForces};
 use geom::mesh::{TriMesh, area};
 use geom::{Motion, Plane, Shape, Transform, Vec3};
 use record::column::{POSITION, RADIUS, WALL};
@@ -14,10 +15,11 @@ use record::topic::{
     BODIES, BONDS, CONTACTS, CRACKS, CROSSINGS, DOMAIN, ENERGY, PARTICLES, SETTLING, SURFACES, WALL_FORCES,
     WALL_WEAR, WALLS,
 };
-use record::{DomainRecord, Ending, RunTimes, SurfaceShape, WallRecord};
+use record::{DomainRecord, Ending, RunTimes, SurfaceShape, WallRecord, WallsEnd};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use stream::{Table, mcap::Event};
+use wear::WallWear;
 
 /// A hair of slack [s]: frames have their times in nanoseconds.
 pub const SLACK: f64 = 1e-9;
@@ -101,14 +103,18 @@ pub struct Run {
     pub outlets: Vec<Plane>,
     /// Direction against gravity [–]; `None` without gravity.
     pub up: Option<Vec3>,
-    /// Direction of gravity [–] and how far along it any wall reaches [m]; `None` where grains cannot fall past all of them, or it is not known.
-    pub walls_end: Option<(Vec3, f64)>,
+    /// How far along gravity any wall reaches; `None` where grains cannot fall past all of them, or it is not known.
+    pub walls_end: Option<WallsEnd>,
     /// Acceleration of free fall [m/s²]; 0 where it is not known.
     pub gravity: f64,
     /// The periodic box as it is now.
     pub periodic: PeriodicBox,
     /// Names of the walls.
     pub walls: Vec<String>,
+    /// Indices of their materials, where the run tells them.
+    pub wall_materials: Vec<Option<usize>>,
+    /// Indices of the walls that are planes.
+    pub(crate) planes: Vec<usize>,
     /// Motions of the walls, without those of servos.
     pub motions: Vec<Motion>,
     /// Triangles of the walls that have some, at t = 0.
@@ -122,13 +128,6 @@ pub struct Run {
     pub ending: Ending,
     /// A frame with clumps, whose message comes next.
     pub(crate) waiting: Option<Frame>,
-}
-
-/// [`Run::walls_end`] of its record.
-fn walls_end(map: &BTreeMap<String, String>) -> Option<(Vec3, f64)> {
-    let numbers: Vec<f64> = map.get("down")?.split(',').map(str::parse).collect::<Result<_, _>>().ok()?;
-    let &[x, y, z] = numbers.as_slice() else { return None };
-    Some((Vec3::new(x, y, z), map.get("depth")?.parse().ok()?))
 }
 
 impl Run {
@@ -185,7 +184,14 @@ impl Run {
                 whole.map(RunMessage::Frame)
             }
             CONTACTS => Some(RunMessage::Contacts(Contacts::new(time, &table)?)),
-            WALL_WEAR => Some(RunMessage::WallWear(WallWear::new(time, &table)?)),
+            WALL_WEAR => {
+                let wrong = |e: record::RecordError| MeasureError::Message {
+                    topic: WALL_WEAR.to_owned(),
+                    time,
+                    why: e.why,
+                };
+                Some(RunMessage::WallWear(WallWear::new(time, &table).map_err(wrong)?))
+            }
             CRACKS => Some(RunMessage::Cracks(Crack::list(time, &table)?)),
             BONDS => Some(RunMessage::Bonds(Bonds::new(time, &table)?)),
             CROSSINGS => Some(RunMessage::Crossings(Crossing::list(time, &table, &self.densities)?)),
@@ -212,7 +218,7 @@ impl Run {
                 self.densities = all.iter().map(|m| m["density"].as_f64().unwrap_or(f64::NAN)).collect();
             }
             TIME => self.step = RunTimes::read(map).dt.unwrap_or(0.0),
-            WALLS_END => self.walls_end = walls_end(map),
+            WALLS_END => self.walls_end = WallsEnd::read(map),
             PLACES => {
                 let place =
                     |(k, text): (&String, &String)| Some((k.parse().ok()?, Transform::parse(text).ok()?));
@@ -248,6 +254,11 @@ impl Run {
         let walls: Value = serde_json::from_slice(data).unwrap_or_default();
         let name = |(k, w): (usize, &Value)| w["name"].as_str().map_or(k.to_string(), str::to_owned);
         self.walls = walls.as_array().into_iter().flatten().enumerate().map(name).collect();
+        let material = |w: &Value| w["material"].as_u64().map(|k| k as usize);
+        self.wall_materials = walls.as_array().into_iter().flatten().map(material).collect();
+        let is_plane = |w: &Value| w["shape"].get("plane").is_some();
+        let rows = walls.as_array().into_iter().flatten().enumerate();
+        self.planes = rows.filter(|(_, w)| is_plane(w)).map(|(k, _)| k).collect();
         let mesh = |surface: Option<SurfaceShape>| match surface {
             Some(SurfaceShape::Mesh(mesh)) => Some(mesh),
             Some(SurfaceShape::Plane(_)) | None => None,
@@ -287,6 +298,11 @@ impl Run {
         triangles.map(place).collect()
     }
 
+    /// Whether a wall is one plane, which has no parts.
+    pub fn is_plane(&self, wall: usize) -> bool {
+        self.planes.contains(&wall)
+    }
+
     /// Whether a time lies between two [s], these included. What is due at a time is written at the step nearest to it, so half a step more counts.
     pub fn is_between(&self, (from, until): (f64, f64), time: f64) -> bool {
         let slack = 0.5 * self.step + SLACK;
@@ -302,27 +318,6 @@ impl Run {
 fn plane(json: &Value) -> Option<Plane> {
     let vector = |v: &Value| Some(Vec3::new(v[0].as_f64()?, v[1].as_f64()?, v[2].as_f64()?));
     Plane::new(vector(&json["plane"]["point"])?, vector(&json["plane"]["normal"])?).ok()
-}
-
-/// A number of a scene, plain or as text with a unit.
-fn number(value: &toml::Value, unit: &'static str) -> Option<f64> {
-    match value {
-        toml::Value::String(text) => in_unit(text, unit),
-        v => v.as_float().or_else(|| v.as_integer().map(|i| i as f64)),
-    }
-}
-
-fn in_unit(text: &str, unit: &'static str) -> Option<f64> {
-    text.trim().parse().ok().or_else(|| geom::units::parse(text, unit).ok())
-}
-
-/// A vector of a scene: three numbers, or texts with units, or one text with commas.
-fn vector(value: &toml::Value, unit: &'static str) -> Option<Vec3> {
-    let list: Vec<f64> = match value {
-        toml::Value::String(text) => text.split(',').filter_map(|text| in_unit(text, unit)).collect(),
-        list => list.as_array()?.iter().filter_map(|v| number(v, unit)).collect(),
-    };
-    (list.len() == 3).then(|| Vec3::from_column_slice(&list))
 }
 
 fn ledger(time: f64, data: &[u8]) -> Result<Ledger, MeasureError> {

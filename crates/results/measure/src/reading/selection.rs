@@ -5,7 +5,7 @@
 
 use crate::observer::Observer;
 use crate::run::SLACK;
-use crate::sheet::{Chart, Head, Row, Summary};
+use crate::sheet::{Chart, Geometry, Head, Row, Summary};
 use crate::{MeasureError, Run, RunMessage};
 use geom::Shown;
 use record::topic::PARTICLES;
@@ -152,5 +152,9 @@ impl Observer for Selected {
 
     fn chart(&self, rows: &[Row]) -> Chart {
         self.measure.chart(rows)
+    }
+
+    fn geometry(&self) -> Result<Geometry, &'static str> {
+        self.measure.geometry()
     }
 }

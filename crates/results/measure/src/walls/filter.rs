@@ -73,6 +73,6 @@ impl WallContactFilter {
 fn index(walls: &[String], name: &str) -> Result<u64, MeasureError> {
     let by_name = walls.iter().position(|w| w == name).map(|k| k as u64);
     let by_number = || name.parse().ok().filter(|k: &u64| walls.is_empty() || (*k as usize) < walls.len());
-    let missing = || MeasureError::Name { name: name.to_owned(), has: walls.to_vec() };
+    let missing = || MeasureError::Wall { name: name.to_owned(), has: walls.to_vec() };
     by_name.or_else(by_number).ok_or_else(missing)
 }

@@ -49,6 +49,9 @@ pub struct WallForce {
     /// Time that means are of [s].
     length: f64,
     largest: f64,
+    /// Time from which on frames are looked at [s], and when the first mean begins, where that is earlier [s].
+    from: f64,
+    early: Option<f64>,
     /// Whether each row so far came with its work.
     slides: bool,
     work: f64,
@@ -68,6 +71,8 @@ impl WallForce {
             magnitudes: Vec::new(),
             sum: Vec3::zeros(),
             length: 0.0,
+            from: f64::NEG_INFINITY,
+            early: None,
             largest: 0.0,
             slides: true,
             work: 0.0,
@@ -135,6 +140,10 @@ impl WallForce {
         let [normal, work, power, impacts, energy] = sums;
         let known = length > 0.0;
         if known {
+            let begin = forces.time - length;
+            if self.magnitudes.is_empty() && begin < self.from - SLACK {
+                self.early = Some(begin);
+            }
             self.sum += force * length;
             self.length += length;
             self.largest = self.largest.max(largest);
@@ -158,7 +167,8 @@ impl WallForce {
         if forces.interval.is_some() && self.what.shape.is_none() && !self.instants && begins {
             // Of one frame, contacts come first.
             let what = self.what.clone();
-            *self = WallForce { source: Some(Source::Means), ..WallForce::new(what, false) };
+            let from = self.from;
+            *self = WallForce { source: Some(Source::Means), from, ..WallForce::new(what, false) };
         }
         self.source == Some(Source::Means)
     }
@@ -269,6 +279,11 @@ impl Observer for WallForce {
                  [output] contacts = true records these",
             ),
         };
+        let early = self.early.map(|begin| {
+            let [begin, from] = [begin, self.from].map(geom::Shown);
+            format!("the first row with means is of the time since {begin} s, before --from {from} s")
+        });
+        let summary = early.into_iter().fold(summary, Summary::note);
         Ok(if self.touched { summary } else { summary.note("no grain touches a wall in these frames") })
     }
 
@@ -292,7 +307,8 @@ impl Measure for WallForce {
         &[number("wall-force", "mean_force"), number("peak-wall-force", "largest_force")];
 
     fn observer(asked: &Asked) -> Result<Box<dyn Observer>, AskError> {
-        Ok(Box::new(WallForce::new(WallContactFilter::asked_for(asked)?, asked.instants)))
+        let measure = WallForce::new(WallContactFilter::asked_for(asked)?, asked.instants);
+        Ok(Box::new(WallForce { from: asked.between.0, ..measure }))
     }
 }
 

@@ -18,6 +18,9 @@ const TURBO: [u32; 15] = [
     0xd1_e8_34, 0xf3_c6_3a, 0xfe_9b_2d, 0xf3_63_15, 0xd9_38_06, 0xb1_19_01, 0x7a_04_02,
 ];
 
+/// Heat: pale to dark red, lighter all the way down; for walls, beside grains in viridis.
+const HEAT: [u32; 7] = [0xe6_e4_dc, 0xf6_dc_8b, 0xf8_b6_50, 0xee_81_38, 0xd1_48_2c, 0x96_1f_2f, 0x4f_0d_2c];
+
 /// Kinds (M. Okabe, K. Ito 2008), the yellow and black moved to the end.
 const KINDS: [u32; 8] =
     [0x00_72_b2, 0xe6_9f_00, 0x00_9e_73, 0xd5_5e_00, 0x56_b4_e9, 0xcc_79_a7, 0xf0_e4_42, 0x55_55_55];
@@ -30,11 +33,14 @@ pub enum Map {
     Viridis,
     /// Blue over green to red.
     Turbo,
+    /// Pale over orange to dark red.
+    Heat,
 }
 
 impl Map {
     /// Every map, with its name.
-    pub const ALL: [(&'static str, Map); 2] = [("viridis", Map::Viridis), ("turbo", Map::Turbo)];
+    pub const ALL: [(&'static str, Map); 3] =
+        [("viridis", Map::Viridis), ("turbo", Map::Turbo), ("heat", Map::Heat)];
 
     /// The map of that name.
     pub fn named(name: &str) -> Option<Map> {
@@ -46,6 +52,7 @@ impl Map {
         let anchors: &[u32] = match self {
             Map::Viridis => &VIRIDIS,
             Map::Turbo => &TURBO,
+            Map::Heat => &HEAT,
         };
         anchors.iter().map(|&hex| rgb(hex)).collect()
     }
@@ -103,6 +110,15 @@ mod tests {
             0.2126 * r + 0.7152 * g + 0.0722 * b
         };
         assert!((0..100).all(|i| light(f64::from(i) / 100.0) < light(f64::from(i + 1) / 100.0)));
+    }
+
+    #[test]
+    fn heat_grows_darker_all_the_way() {
+        let light = |s: f64| {
+            let [r, g, b] = Map::Heat.at(s);
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        assert!((0..100).all(|i| light(f64::from(i) / 100.0) > light(f64::from(i + 1) / 100.0)));
     }
 
     #[test]

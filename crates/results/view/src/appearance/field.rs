@@ -78,7 +78,31 @@ pub fn is_whole(table: &Table, name: &str) -> bool {
 
 /// Whether the whole numbers of a field are names: neighbouring ones have nothing in common, so each has a separate colour.
 pub fn names_things(name: &str) -> bool {
-    ["id", "body", "cluster", "class", "material", "wall", "region", "removed"].contains(&name)
+    ["id", "body", "cluster", "class", "material", "wall", "region", "removed", "origin"].contains(&name)
+}
+
+/// What the numbers of `removed` mean, as `cloud-crop --mark` writes them.
+const REMOVED: [&str; 10] = [
+    "0 stays",
+    "1 shape",
+    "2 beyond the outer shape",
+    "3 outlier",
+    "4 grazing",
+    "5 ground",
+    "6 scattered",
+    "7 smaller part",
+    "8 repeated",
+    "9 by its properties",
+];
+
+/// What the numbers of a field mean; `materials` are those of `material`.
+pub fn codes(name: &str, materials: &[String]) -> Vec<String> {
+    match name {
+        "material" => materials.to_vec(),
+        "origin" => ["there at the start", "came in later"].map(str::to_owned).to_vec(),
+        "removed" => REMOVED.map(str::to_owned).to_vec(),
+        _ => Vec::new(),
+    }
 }
 
 /// The field a person means by another name for it.
@@ -100,7 +124,7 @@ pub fn unit(name: &str) -> &'static str {
         "fx" | "fy" | "fz" | "force" => "N",
         "stress" | "pressure" => "Pa",
         "mass" => "kg",
-        "time" => "s",
+        "time" | "residence" => "s",
         "energy" => "J",
         _ => "",
     }

@@ -5,3 +5,4 @@ pub(crate) mod classes;
 pub(crate) mod colour;
 pub(crate) mod field;
 pub(crate) mod scale;
+pub(crate) mod wall_scale;

@@ -70,6 +70,7 @@ pub fn readable(unit: &str, largest: f64) -> (String, f64) {
         "s" => &[("s", 1.0), ("ms", 1e3), ("µs", 1e6)],
         "N" => &[("MN", 1e-6), ("kN", 1e-3), ("N", 1.0), ("mN", 1e3), ("µN", 1e6)],
         "Pa" => &[("GPa", 1e-9), ("MPa", 1e-6), ("kPa", 1e-3), ("Pa", 1.0)],
+        "J/m²" => &[("MJ/m²", 1e-6), ("kJ/m²", 1e-3), ("J/m²", 1.0), ("mJ/m²", 1e3), ("µJ/m²", 1e6)],
         "kg" => &[("t", 1e-3), ("kg", 1.0), ("g", 1e3), ("mg", 1e6)],
         _ => &[],
     };
@@ -81,6 +82,14 @@ pub fn readable(unit: &str, largest: f64) -> (String, f64) {
 pub fn round_below(limit: f64) -> f64 {
     let ten = 10f64.powi(limit.log10().floor() as i32);
     [5.0, 2.0, 1.0].iter().map(|m| m * ten).find(|v| *v <= limit * (1.0 + 1e-9)).unwrap_or(ten)
+}
+
+/// The least number of two digits that is not below a positive one.
+pub fn rounded_out(value: f64) -> f64 {
+    let ten = 10f64.powi(value.log10().floor() as i32 - 1);
+    // A power of ten below one is not exact: the text of two digits is the number nearest to it.
+    let text = format!("{:.1e}", (value / ten * (1.0 - 1e-12)).ceil() * ten);
+    text.parse().unwrap_or(value)
 }
 
 /// Round values inside the range, about `count` of them, and the decimals they need.

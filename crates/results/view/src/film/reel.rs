@@ -29,7 +29,7 @@ impl Reel {
         let mut reel = Reel { series, survey: Survey::default(), options, times };
         let mut survey = Survey::default();
         for &time in &reel.times {
-            let tables = reel.series.tables(time);
+            let tables = reel.series.tables(time)?;
             survey.add(&reel.series.parts(&tables), &reel.series.surfaces, &reel.at(time))?;
         }
         reel.survey = survey;
@@ -52,7 +52,13 @@ impl Reel {
     }
 
     fn at(&self, time: f64) -> PictureOptions {
-        PictureOptions { time: Some(time), ..self.options.clone() }
+        self.at_with(time, &self.options)
+    }
+
+    fn at_with(&self, time: f64, options: &PictureOptions) -> PictureOptions {
+        let surface_values = self.series.surface_values(time);
+        let walls_end = self.series.walls_end;
+        PictureOptions { time: Some(time), surface_values, walls_end, ..options.clone() }
     }
 
     /// The picture of a time [s].
@@ -68,9 +74,9 @@ impl Reel {
     /// # Errors
     /// As [`picture::draw`].
     pub fn draw_with(&self, time: f64, options: &PictureOptions) -> Result<Image, ViewError> {
-        let tables = self.series.tables(time);
+        let tables = self.series.tables(time)?;
         let parts = self.series.parts(&tables);
-        let options = PictureOptions { time: Some(time), ..options.clone() };
+        let options = self.at_with(time, options);
         picture::draw_surveyed(&parts, &self.series.surfaces, &self.survey, &options)
     }
 

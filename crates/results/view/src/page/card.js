@@ -57,11 +57,12 @@ function pickedValues() {
   const { layer, surface } = picked.hit;
   const error = surface ? 1e-6 * halfDiagonal : run.positionError;
   const rows = at.place.map((v, k) => ({ name: "xyz"[k], value: v, text: number(v, digitsOf(error, 1)), unit: "m" }));
+  rows.push(...wornRows(surface ?? layer, surface ? picked.hit.row : at.row));
   if (surface) return rows;
   for (const [n, field] of layer.fields.entries()) {
     if (["x", "y", "z", "id"].includes(field.name) || !at.frame.fields[n]) continue;
     const value = valueAt(at.frame.fields[n], at.row);
-    const kind = field.name === "material" && layer.kinds[Math.round(value)];
+    const kind = (field.name === "material" && layer.kinds[Math.round(value)]) || field.codes?.[Math.round(value)];
     const text = field.whole ? kind || String(Math.round(value)) : number(value * field.factor, digitsOf(errorOf(at.frame.fields[n]), field.factor));
     rows.push({ name: field.name, value: field.whole ? Math.round(value) : value, text, unit: field.unit });
   }

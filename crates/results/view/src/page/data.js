@@ -71,6 +71,8 @@ const state = {
   cutAxis: -1, cutNormal: [0, 0, 1], cutAt: 0.5, cutSide: 1, cutThick: 0, cutGrains: true,
 };
 
+for (const l of [...run.layers, ...run.surfaces]) if (l.hidden) state.hidden.add(l);
+
 function fieldOf(layer, name) { return layer.fields.findIndex((f) => f.name === name); }
 
 // The size of spheres as drawn, over their own.

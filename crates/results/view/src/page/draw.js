@@ -18,6 +18,7 @@ const painter = {
     this.map = texture(256, 1, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE);
     for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, side, gl.LINEAR);
     this.mapShown = null;
+    setWallMap();
   },
 
   setMap() {
@@ -51,10 +52,9 @@ const painter = {
     this.ball = dots ? this.points : this.balls;
     const [width, height] = [canvas.width, canvas.height];
     const size = [width * quality, height * quality];
-    const walls = mainRole !== "walls" && state.opacity < 0.999;
     const view = this.view(size);
     const all = this.layers.filter((b) => !state.hidden.has(b.layer));
-    const isGlass = (b) => walls && b.layer.role === "walls";
+    const isGlass = (b) => mainRole !== "walls" && b.layer.role === "walls" && opacityOf(b.layer) < 0.999;
     this.drawn = 0;
     this.smooth = false;
     const glass = all.filter((b) => isGlass(b) && state.opacity > 0);

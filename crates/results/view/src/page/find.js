@@ -4,8 +4,8 @@ const NEARBY = 7;  // pixels by which a small sphere may be missed
 // The nearest thing at a pixel of the window: grains before what only veils them; none where there is nothing.
 function findAt(x, y) {
   const ray = rayAt(x, y);
-  const veil = (l) => mainRole !== "walls" && l.role === "walls" && state.opacity < 0.999;
-  const shown = run.layers.filter((l) => !isRods(l) && !state.hidden.has(l) && !(l.role === "walls" && state.opacity === 0));
+  const veil = (l) => mainRole !== "walls" && l.role === "walls" && opacityOf(l) < 0.999;
+  const shown = run.layers.filter((l) => !isRods(l) && !state.hidden.has(l) && !(l.role === "walls" && opacityOf(l) === 0));
   const nearest = (hits) => hits.filter(Boolean).sort((a, b) => a.miss - b.miss || a.depth - b.depth)[0] || null;
   const solid = nearest([...shown.filter((l) => !veil(l)).map((l) => sphereOn(ray, l)), ...solids.shown().map((p) => solidOn(ray, p)), ...sheets.solid().map((p) => faceOn(ray, p))]);
   // A plane is ground: a click on it lets go.

@@ -1,6 +1,6 @@
 //! Keeps a page below its size limit: what is left out, and what is refused.
 
-use super::{Page, PageLayer, exact::Exact, page_field::Field, panes};
+use super::{Page, PageLayer, exact::Exact, page_field::Field, panes, worn::WearTrack};
 use crate::ViewError;
 use crate::appearance::field;
 use stream::Table;
@@ -23,8 +23,10 @@ impl Page {
 
     /// Packed bytes of everything so far.
     fn bytes(&self) -> usize {
-        let layers = self.layers.iter().map(|l| l.frames.bytes() + l.exact.as_ref().map_or(0, Exact::len));
-        layers.chain(self.surfaces.iter().map(panes::bytes)).sum()
+        let exact = |l: &PageLayer| l.exact.as_ref().map_or(0, Exact::len);
+        let layers = self.layers.iter().map(|l| l.frames.bytes() + l.wear.bytes() + exact(l));
+        let worn = self.worn.values().map(WearTrack::bytes);
+        layers.chain(self.surfaces.iter().map(panes::bytes)).chain(worn).sum()
     }
 
     /// Leaves out what may be left out while the page is too big: components of vectors, then frames.
@@ -36,7 +38,10 @@ impl Page {
         }
         while self.bytes() > self.limit() && self.layers.iter().any(|l| l.frames.len() > 2) {
             self.stride *= 2;
-            self.layers.iter_mut().for_each(|l| l.frames.thin(self.stride));
+            let stride = self.stride;
+            self.layers.iter_mut().for_each(|l| l.frames.thin(stride));
+            let of_layers = self.layers.iter_mut().map(|l| &mut l.wear);
+            of_layers.chain(self.worn.values_mut()).for_each(|track| track.thin(stride));
         }
         let Some(largest) = self.layers.iter().max_by_key(|l| l.frames.bytes()) else { return Ok(()) };
         if self.bytes() <= self.limit() {

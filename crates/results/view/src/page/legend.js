@@ -32,22 +32,24 @@ function element(tag, text, style) {
 function showLegend() {
   const legend = byId("legend");
   legend.replaceChildren();
-  const about = describe(state.field);
+  // Walls that are coloured by what was done to them are not coloured by a field.
+  const about = mainRole === "walls" && worn.on ? null : describe(state.field);
   const bonds = run.layers.some((l) => l.role === "bonds");
-  legend.hidden = !about && !bonds;
+  legend.hidden = !about && !bonds && !worn.on;
   if (about) legend.append(element("h2", about.unit ? `${about.name} [${about.unit}]` : about.name));
-  if (about?.kinds && about.all[1] >= run.kinds.length) {
+  if (about?.kinds && about.all[1] >= Math.max(run.kinds.length, about.codes?.length ?? 0)) {
     legend.append(element("p", "colours repeat"));
   } else if (about?.kinds) {
     const names = mainLayers[0].kinds;
-    const kinds = run.kinds.slice(0, about.all[1] + 1).map((colour, k) => [colour, (about.name === "material" && names[k]) || String(k)]);
+    const kinds = Array.from({ length: about.all[1] + 1 }, (_, k) => [run.kinds[k % run.kinds.length], (about.name === "material" && names[k]) || about.codes?.[k] || String(k)]);
     legend.append(swatches(kinds.slice(about.all[0])));
   } else if (about?.classes) {
     const last = Math.max(1, about.classes.length - 1);
     legend.append(swatches(about.classes.map((name, k) => [mapAt(state.map, k / last), name])));
   } else if (about) {
-    showBar(legend, about);
+    showBar(legend, { ...about, shown: state.shown, map: state.map });
   }
+  showWornLegend(legend, about);
   if (bonds) legend.append(swatches([[WHOLE, "bond"], [BREAK, "crack"]]));
 }
 
@@ -62,25 +64,36 @@ function swatches(rows) {
   return list;
 }
 
-function showBar(legend, about) {
-  const bar = element("div");
-  bar.className = "bar";
-  const stops = run.maps[state.map].map(css);
-  bar.style.setProperty("--stops", stops.join(","));
-  const [lo, hi] = state.shown.map((v) => v * about.factor);
+// The marks of a bar: its ends, which are always labelled, and round values between that are not too near to them.
+function marksOf([lo, hi]) {
   const step = roundBelow((hi - lo) / 4);
   const decimals = Math.max(0, Math.min(9, -Math.floor(Math.log10(step))));
-  for (let k = Math.ceil((lo - 1e-6 * step) / step); k * step <= hi + 1e-6 * step; k++) {
-    const tick = element("span", number(k * step, decimals));
-    tick.style.setProperty("--at", `${100 * (k * step - lo) / (hi - lo)}%`);
+  const marks = [];
+  for (let k = Math.ceil(lo / step); k * step <= hi; k++) marks.push([(k * step - lo) / (hi - lo), number(k * step, decimals)]);
+  const end = (v) => (Math.abs(Number(v.toFixed(decimals)) - v) <= 1e-3 * (hi - lo) ? number(v, decimals) : significant(v));
+  return [[0, end(lo)], ...marks.filter(([at]) => at >= 0.06 && at <= 0.94), [1, end(hi)]];
+}
+
+// A number to three digits.
+const significant = (v) => String(Number(v.toPrecision(3))).replace("-", "−");
+
+function showBar(legend, about, marksAt = marksOf) {
+  const bar = element("div");
+  bar.className = "bar";
+  const stops = run.maps[about.map].map(css);
+  bar.style.setProperty("--stops", stops.join(","));
+  const marks = marksAt(about.shown.map((v) => v * about.factor));
+  for (const [at, text] of marks) {
+    const tick = element("span", text);
+    tick.style.setProperty("--at", `${100 * at}%`);
     bar.append(tick);
   }
   // A bar ends in a point where some values lie beyond it.
-  const slack = 1e-6 * (state.shown[1] - state.shown[0]);
-  const beyond = [about.all[0] < state.shown[0] - slack, about.all[1] > state.shown[1] + slack];
+  const slack = 1e-6 * (about.shown[1] - about.shown[0]);
+  const beyond = [about.all[0] < about.shown[0] - slack, about.all[1] > about.shown[1] + slack];
   beyond.forEach((on, end) => { if (on) bar.append(Object.assign(element("b", undefined, { background: stops[end ? stops.length - 1 : 0] }), { className: end ? "above" : "below" })); });
   legend.append(bar);
-  legend.setAttribute("aria-label", `Colour scale: ${about.name} from ${number(lo, decimals)} to ${number(hi, decimals)} ${about.unit}`);
+  legend.setAttribute("aria-label", `Colour scale: ${about.name} from ${marks[0][1]} to ${marks.at(-1)[1]} ${about.unit}`);
 }
 
 function readableLength(metres) {

@@ -2,7 +2,7 @@
 // A face of a mesh that hides what is behind it, lit from both sides.
 precision highp float;
 in vec3 seen, place;
-uniform vec3 plain;
+flat in vec4 tone;
 uniform vec2 nearFar;
 uniform vec4 cut;
 uniform float cutLeast, flatView;
@@ -17,6 +17,7 @@ void main() {
   vec3 normal = slope / max(1e-30, length(slope));
   if (dot(normal, flatView > 0.5 ? vec3(0.0, 0.0, 1.0) : seen) > 0.0) normal = -normal;
   float lamp = max(0.0, dot(normal, vec3(-0.4243, 0.7071, -0.5657)));
-  lit = vec4(min(plain * (0.64 + 0.14 * normal.y + 0.38 * lamp), 1.0), 1.0);
+  float bright = mix(0.64 + 0.14 * normal.y + 0.38 * lamp, 1.0, tone.a);
+  lit = vec4(min(tone.rgb * bright, 1.0), 1.0);
   normalOut = vec4(0.5 + 0.5 * normal, 1.0);
 }

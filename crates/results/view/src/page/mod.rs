@@ -4,6 +4,7 @@
 //! in memory can be shown; when the page grows beyond its limit, first the components of vectors are left out, of
 //! which the lengths stay, then every second frame, again and again; what is then still too big is refused.
 
+mod blobs;
 mod exact;
 mod fit;
 mod pack;
@@ -11,9 +12,10 @@ mod page_field;
 mod panes;
 mod solids;
 mod timeline;
+mod worn;
 mod write;
 
-use crate::appearance::{classes::Sizes, field, scale::Range};
+use crate::appearance::{classes::Sizes, field, scale::Range, wall_scale::WallSurvey};
 use crate::things::{
     bodies::{bodies, even_out},
     extras,
@@ -21,16 +23,18 @@ use crate::things::{
     spheres::Spheres,
 };
 use crate::{
-    Camera, Diagram, GrainCount, Map, Motion, Role, ViewError, WallSurface,
+    Camera, Diagram, GrainCount, Hidden, Map, Motion, Role, ViewError, WallScale, WallSurface,
     picture::{self, ArrowKey},
 };
 use exact::Exact;
 use pack::Packed;
-use page_field::Field;
-use record::{ClumpRecord, column::RADIUS};
+use page_field::{Field, new_fields};
+use record::{ClumpRecord, WallsEnd, column::RADIUS};
 use solids::PageSolids;
+use std::collections::BTreeMap;
 use stream::{Table, Values};
 use timeline::Timeline;
+use worn::WearTrack;
 
 /// A page's settings.
 #[derive(Debug, Clone)]
@@ -55,6 +59,10 @@ pub struct PageOptions {
     pub pick: Option<String>,
     /// Dark colours first; else those of the system.
     pub dark: bool,
+    /// What is not shown at first.
+    pub hidden: Hidden,
+    /// What walls are coloured by; none: they are grey.
+    pub walls: Option<WallScale>,
 }
 
 impl Default for PageOptions {
@@ -70,6 +78,8 @@ impl Default for PageOptions {
             components: false,
             pick: None,
             dark: false,
+            hidden: Hidden::default(),
+            walls: None,
         }
     }
 }
@@ -117,6 +127,8 @@ pub(crate) struct PageLayer {
     pub exact: Option<Exact>,
     /// Of arrows: largest length that is not rare, in the unit of their vectors, and mean radius of the grains [m].
     pub reach: [f64; 2],
+    /// Of wall spheres: what grains did to them.
+    pub wear: WearTrack,
 }
 
 /// A page in the making.
@@ -124,6 +136,10 @@ pub struct Page {
     options: PageOptions,
     layers: Vec<PageLayer>,
     surfaces: Vec<WallSurface>,
+    /// What grains did to the triangles of surfaces, by their numbers.
+    worn: BTreeMap<usize, WearTrack>,
+    wall_survey: WallSurvey,
+    walls_end: Option<WallsEnd>,
     given: usize,
     stride: usize,
     lengths_only: bool,
@@ -141,6 +157,9 @@ impl Page {
             options,
             layers,
             surfaces,
+            worn: BTreeMap::new(),
+            wall_survey: WallSurvey::default(),
+            walls_end: None,
             given: 0,
             stride: 1,
             lengths_only: false,
@@ -171,6 +190,7 @@ impl Page {
             motion: Motion::default(),
             exact: None,
             reach: [0.0; 2],
+            wear: WearTrack::default(),
         });
         self.layers.len() - 1
     }
@@ -195,9 +215,10 @@ impl Page {
         self.diagrams.extend(diagrams);
     }
 
-    /// Adds a wall that is a plane or a mesh.
-    pub fn surface(&mut self, surface: WallSurface) {
+    /// Adds a wall that is a plane or a mesh; its number is for [`Page::wear`].
+    pub fn surface(&mut self, surface: WallSurface) -> usize {
         self.surfaces.push(surface);
+        self.surfaces.len() - 1
     }
 
     /// Adds what a layer looks like at `time` [s] and after; times of a layer must not fall.
@@ -225,9 +246,10 @@ impl Page {
         if layer.role.is_rods() {
             layer.add_reach(table, &spheres);
         } else {
-            layer.outline.add_spheres(&spheres, &bodies, layer.role != Role::Walls);
+            let end = self.walls_end.filter(|_| moving);
+            layer.outline.add_spheres(&spheres, &bodies, layer.role != Role::Walls, end);
             if layer.outline.leaves_out(&spheres) {
-                layer.strays.add_spheres(&spheres, &[], false);
+                layer.strays.add_spheres(&spheres, &[], false, None);
             }
         }
         let last = layer.frames.last();
@@ -306,24 +328,6 @@ impl PageLayer {
             (field.name.clone(), of.map(pack::Column::error).fold(0.0, f64::max))
         })
     }
-}
-
-/// The fields of a first table: all, or of vectors only the lengths; and the one `asked` for.
-fn new_fields(table: &Table, components: bool, sized: bool, asked: Option<&str>) -> Vec<Field> {
-    let mut names = field::names(table, components);
-    names.retain(|n| n != "radius" || sized);
-    let place = |name: &str| ["x", "y", "z"].contains(&name);
-    if let Some(asked) = asked.map(field::canonical).filter(|a| table.get(a).is_some() && !place(a)) {
-        names.retain(|n| n != asked);
-        names.push(asked.to_owned());
-    }
-    let field = |name: String| Field {
-        whole: field::is_whole(table, &name),
-        name,
-        all: Range::EMPTY,
-        most: Range::EMPTY,
-    };
-    names.into_iter().map(field).collect()
 }
 
 /// The rows in the order of their id, so that what stays the same between frames is the same column of bytes.

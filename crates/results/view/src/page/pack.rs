@@ -29,7 +29,8 @@ pub(crate) struct Column {
 }
 
 impl Column {
-    fn new(
+    /// Packs values; the bytes of the `last` column are used again where they are the same.
+    pub fn new(
         values: impl ExactSizeIterator<Item = f64>,
         range: Range,
         width: usize,

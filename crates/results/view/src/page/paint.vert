@@ -7,7 +7,9 @@ uniform vec2 shown;
 uniform vec3 plain, kinds[8];
 uniform sampler2D map;
 
+{{worn}}
 vec3 coloured(vec3 place, vec3 share) {
+  if (wornMode > 0) return wornColour(share.r);
   float value = axis < 0 ? valueOf[0].x + share.r * valueOf[0].y : place[axis];
   if (mode == 1) return texture(map, vec2(clamp((value - shown.x) / (shown.y - shown.x), 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
   if (mode == 2) return kinds[int(value + 0.5) % 8];

@@ -36,13 +36,14 @@ function choices() {
   [...run.layers, ...run.surfaces].forEach((layer) => {
     const label = element("label");
     label.className = "check";
-    const box_ = Object.assign(element("input"), { type: "checkbox", checked: true });
+    const box_ = Object.assign(element("input"), { type: "checkbox", checked: !state.hidden.has(layer) });
     box_.onchange = () => { state.hidden[box_.checked ? "delete" : "add"](layer); changed(); };
     layer.box = box_;
     label.append(box_, element("span", layer.name));
     byId("layers").append(label);
   });
   byId("glass").hidden = !run.surfaces.length && (mainRole === "walls" || !run.layers.some((l) => l.role === "walls"));
+  wornChoices();
   byId("opacity").value = state.opacity;
   byId("colours").hidden = byId("details").hidden = !run.layers.length;
   byId("sizes").hidden = !run.layers.some(isRods);
@@ -106,7 +107,7 @@ function wire() {
   on("map", "change", (e) => { state.map = e.target.value; showLegend(); changed(); });
   ["lo", "hi"].forEach((id) => on(id, "change", setEnds));
   on("flat", "change", (e) => { camera.flat = e.target.checked = e.target.checked || camera.rests; changed(); });
-  on("opacity", "input", (e) => { state.opacity = Number(e.target.value); changed(); });
+  on("opacity", "input", (e) => { state.opacity = Number(e.target.value); worn.asked = true; changed(); });
   on("shrink", "input", (e) => { state.grains = Number(e.target.value); changed(); });
   on("dot", "input", (e) => { state.dot = 2 ** Number(e.target.value); changed(); });
   on("detail", "change", (e) => { state.detail = e.target.value; changed(); });

@@ -21,6 +21,8 @@ pub(super) struct Pane {
     pub vertices: Arc<Vec<u8>>,
     /// Three corners of each face, as 4-byte numbers.
     pub faces: Arc<Vec<u8>>,
+    /// Numbers of the faces in the run, as 4-byte numbers; none where each has its own place.
+    pub parts: Option<Arc<Vec<u8>>>,
     /// x, y, z of both ends of each line, as 4-byte numbers [m].
     pub lines: Arc<Vec<u8>>,
     /// How much a line hides [–].
@@ -122,6 +124,7 @@ impl Pane {
             origin,
             vertices: packed(&mut sheet.vertices.iter().copied()),
             faces: Arc::new(sheet.faces.iter().flatten().flat_map(|n| n.to_le_bytes()).collect()),
+            parts: parts(&sheet.parts),
             lines: packed(&mut sheet.lines.iter().flatten().copied()),
             ink: sheet.ink,
             normal: match &sheet.surface.shape {
@@ -130,6 +133,12 @@ impl Pane {
             },
         }
     }
+}
+
+/// Numbers of faces, unless each is that of its place.
+fn parts(numbers: &[u32]) -> Option<Arc<Vec<u8>>> {
+    let moved = numbers.iter().zip(0..).any(|(number, place)| *number != place);
+    moved.then(|| Arc::new(numbers.iter().flat_map(|n| n.to_le_bytes()).collect()))
 }
 
 /// A place or direction in the page's header.

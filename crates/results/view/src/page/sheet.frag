@@ -3,8 +3,8 @@
 precision highp float;
 precision highp sampler2D;
 in vec3 seen, place;
+flat in vec4 tone;
 uniform sampler2D solidDepth, glassDepth;
-uniform vec3 plain;
 uniform vec2 nearFar;
 uniform vec4 cut;
 uniform float cutLeast, flatView, width, hides, ink;   // ink: brightness of lines
@@ -23,7 +23,8 @@ void main() {
   if (dot(normal, flatView > 0.5 ? vec3(0.0, 0.0, 1.0) : seen) > 0.0) normal = -normal;
   float lamp = max(0.0, dot(normal, vec3(-0.4243, 0.7071, -0.5657)));
   float bright = width > 0.0 ? ink : 0.64 + 0.14 * normal.y + 0.38 * lamp;
-  vec4 veil = vec4(plain * bright, 1.0) * hides;
+  bright = mix(bright, 1.0, tone.a);
+  vec4 veil = vec4(min(tone.rgb * bright, 1.0), 1.0) * hides;
   // A plane is ground: it does not show through the walls that stand before it.
   if (plane == 1 && glass == 1 && depth >= texelFetch(glassDepth, at, 0).r) discard;
   bool nearest = glass == 0 || depth < texelFetch(glassDepth, at, 0).r;

@@ -107,11 +107,11 @@ const sheets = {
   },
 
   shown() {
-    return state.opacity > 0 ? this.parts.filter((p) => !state.hidden.has(p.surface)) : [];
+    return this.parts.filter((p) => opacityOf(p.surface) > 0 && !state.hidden.has(p.surface));
   },
 
   // Meshes hide what is behind them when walls are not to be seen through; planes, which go on for ever, never do.
-  isSolid: (part) => state.opacity > 0.999 && !part.surface.normal,
+  isSolid: (part) => opacityOf(part.surface) > 0.999 && !part.surface.normal,
   solid() { return this.shown().filter((p) => this.isSolid(p)); },
   glass() { return this.shown().filter((p) => !this.isSolid(p)); },
 
@@ -127,8 +127,7 @@ const sheets = {
     for (const part of parts) {
       gl.uniform3fv(at("plain"), tintOf(meshes.indexOf(part.surface), meshes.length));
       this.place(part, this.opaque);
-      gl.bindVertexArray(part.faces.array);
-      gl.drawElements(gl.TRIANGLES, part.faces.count, gl.UNSIGNED_INT, 0);
+      this.drawFaces(part, this.opaque);
     }
   },
 
@@ -170,7 +169,7 @@ const sheets = {
   },
 
   drawPart(part, width) {
-    const { surface, faces, lines } = part;
+    const { surface, lines } = part;
     const { at } = this.program;
     this.place(part, this.program);
     gl.uniform1f(at("width"), width);
@@ -178,9 +177,14 @@ const sheets = {
     // On dark paper a face of the same share would be as bright as the walls on it.
     const ground = surface.normal ? (paper()[0] < 0.5 ? 0.1 : 0.3) : 1;
     gl.uniform1f(at("hides"), width ? surface.ink : Math.min(state.opacity, ground));
-    gl.bindVertexArray((width ? lines : faces).array);
-    if (width) gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
-    else gl.drawElements(gl.TRIANGLES, faces.count, gl.UNSIGNED_INT, 0);
+    if (!width) return this.drawFaces(part);
+    gl.bindVertexArray(lines.array);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
+  },
+
+  drawFaces({ faces }) {
+    gl.bindVertexArray(faces.array);
+    gl.drawElements(gl.TRIANGLES, faces.count, gl.UNSIGNED_INT, 0);
   },
 
   setView(view, size, glass) {

@@ -4,18 +4,24 @@
 precision highp float;
 layout(location = 0) in vec3 here;
 layout(location = 1) in vec3 there;   // the other end of a line
+layout(location = 2) in float share;  // what was done to the face, as a share of its column
+uniform vec3 plain;
 uniform mat3 turn, pose;
 uniform vec3 poseShift, eye;
 uniform vec2 focal, size;             // size of the picture in samples
 uniform vec2 nearFar;
 uniform float flatView, width;        // width of a line in samples, 0 for faces
 out vec3 seen, place;
+flat out vec4 tone;                   // colour in full light, and how much less light changes it
+
+{{worn}}
 
 vec3 placed(vec3 p) { return pose * p + poseShift; }
 
 vec4 clip(vec3 p) { return vec4(p.xy * focal, 0.0, flatView > 0.5 ? 1.0 : p.z); }
 
 void main() {
+  tone = wornMode > 0 ? vec4(wornColour(share), 0.6) : vec4(plain, 0.0);
   place = placed(here);
   seen = turn * (place - eye);
   gl_Position = clip(seen);

@@ -2,8 +2,9 @@
 
 use super::{
     Page, PageLayer,
-    pack::Column,
+    blobs::Blobs,
     panes::{self, Framed, Pane},
+    worn::WearTrack,
 };
 use crate::appearance::{colour, field, scale};
 use crate::things::{extras, sheet};
@@ -11,9 +12,7 @@ use crate::{Diagram, Map, Role, ViewError, picture::ArrowKey};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use geom::Vec3;
 use serde_json::{Value, json};
-use std::collections::HashMap;
 use std::io::{self, Write};
-use std::sync::Arc;
 
 const TEMPLATE: &str = include_str!("page.html");
 const REGION: &str = include_str!("region.html");
@@ -37,6 +36,9 @@ const SCRIPT: [&str; 17] = [
     include_str!("touch.js"),
     include_str!("main.js"),
 ];
+/// What a page has of walls that are coloured, and what of others.
+const WORN: [&str; 3] = [include_str!("worn.js"), include_str!("worn.vert"), include_str!("worn.html")];
+const WORN_OFF: [&str; 3] = [include_str!("worn_off.js"), include_str!("worn_off.vert"), ""];
 /// What a page has besides on which regions are drawn.
 const REGIONS: [&str; 2] = [include_str!("shape.js"), include_str!("region.js")];
 const SHADERS: [(&str, &str); 8] = [
@@ -75,27 +77,6 @@ impl<W: Write> Write for Counted<W> {
 
     fn flush(&mut self) -> io::Result<()> {
         self.to.flush()
-    }
-}
-
-/// Every column of bytes with a number, each place in memory once.
-#[derive(Default)]
-struct Blobs<'a> {
-    list: Vec<&'a [u8]>,
-    number: HashMap<*const Vec<u8>, usize>,
-}
-
-impl<'a> Blobs<'a> {
-    fn number(&mut self, bytes: &'a Arc<Vec<u8>>) -> usize {
-        *self.number.entry(Arc::as_ptr(bytes)).or_insert_with(|| {
-            self.list.push(bytes);
-            self.list.len() - 1
-        })
-    }
-
-    fn column(&mut self, column: &'a Column) -> Value {
-        let blob = if column.bytes.is_empty() { Value::Null } else { json!(self.number(&column.bytes)) };
-        json!([blob, column.range.lo, column.range.hi, column.width])
     }
 }
 
@@ -156,6 +137,7 @@ impl Page {
                     let note = |text: &String| format!("<p class=\"stop\">{}</p>", escaped(text));
                     out.write_all(self.notes.iter().map(note).collect::<String>().as_bytes())?;
                 }
+                "walls" => out.write_all(self.worn_parts()[2].as_bytes())?,
                 "regions" if self.options.pick.is_some() => out.write_all(REGION.as_bytes())?,
                 "style" => out.write_all(slim(STYLE).as_bytes())?,
                 "shaders" => out.write_all(shaders.as_bytes())?,
@@ -173,7 +155,12 @@ impl Page {
         let regions: &[&str] = if self.options.pick.is_some() { &REGIONS } else { &[] };
         // The last part starts what the others define.
         let (last, parts) = SCRIPT.split_last().unwrap_or((&"", &[]));
-        slim(&[parts, regions, &[*last]].concat().concat())
+        slim(&[parts, &[self.worn_parts()[0]], regions, &[*last]].concat().concat())
+    }
+
+    /// Script, part of a program for the graphics card, and settings of walls.
+    fn worn_parts(&self) -> [&'static str; 3] {
+        if self.options.walls.is_some() { WORN } else { WORN_OFF }
     }
 
     fn shaders(&self) -> String {
@@ -181,14 +168,13 @@ impl Page {
         let solids = self.layers.iter().any(|l| !l.solids.is_empty());
         let more = [(rods, &ROD_SHADERS), (solids, &SOLID_SHADERS)];
         let all = SHADERS.iter().chain(more.iter().filter(|m| m.0).flat_map(|m| m.1));
-        all.map(|(id, text)| format!("<script type=\"x-shader\" id=\"{id}\">{}</script>\n", slim(text)))
+        let whole = |text: &str| slim(&text.replace("{{worn}}", self.worn_parts()[1]));
+        all.map(|(id, text)| format!("<script type=\"x-shader\" id=\"{id}\">{}</script>\n", whole(text)))
             .collect()
     }
 
     fn header<'a>(&'a self, framed: &'a Framed, blobs: &mut Blobs<'a>) -> Value {
         let kept = self.kept();
-        let maps: serde_json::Map<String, Value> =
-            Map::ALL.iter().map(|(name, map)| ((*name).to_owned(), json!(map.anchors()))).collect();
         let kinds: Vec<_> = (0..colour::KIND_COUNT).map(colour::kind).collect();
         let map = Map::ALL.iter().find(|(_, m)| *m == self.options.map).map(|(name, _)| *name);
         let camera = &self.options.camera;
@@ -196,7 +182,7 @@ impl Page {
         let with_outline = self.layers.iter().zip(outlines).filter(|(l, _)| is_shown(l));
         json!({
             "title": self.options.title,
-            "maps": maps, "kinds": kinds, "wall": colour::WALL, "map": map,
+            "maps": self.maps_json(), "kinds": kinds, "wall": colour::WALL, "map": map,
             "colour": self.options.colour.as_deref().map(field::canonical),
             "range": self.options.range,
             "time": self.options.time,
@@ -216,8 +202,11 @@ impl Page {
             "positionError": kept.position_error, "radiusError": kept.radius_error,
             "clock": self.times(),
             "lo": framed.extent.map(|r| r.lo), "hi": framed.extent.map(|r| r.hi),
-            "layers": with_outline.map(|(l, o)| layer(l, o, blobs)).collect::<Vec<_>>(),
-            "surfaces": framed.panes.iter().map(|p| pane(p, blobs)).collect::<Vec<_>>(),
+            "layers": with_outline.map(|(l, o)| self.hidden(l.role, &l.name, layer(l, o, blobs))).collect::<Vec<_>>(),
+            "walls": self.walls_json(),
+            "surfaces": framed.panes.iter().zip(0..).map(|(p, n)| {
+                self.hidden(Role::Walls, &p.name, pane(p, self.worn.get(&n), blobs))
+            }).collect::<Vec<_>>(),
         })
     }
 }
@@ -233,14 +222,19 @@ fn page_size(blobs: &Blobs, header: &Value, script: &str, shaders: &str) -> usiz
     TEMPLATE.len() + slim(STYLE).len() + shaders.len() + script.len() + packed + header.to_string().len()
 }
 
-fn pane<'a>(pane: &'a Pane, blobs: &mut Blobs<'a>) -> Value {
+fn pane<'a>(pane: &'a Pane, worn: Option<&'a WearTrack>, blobs: &mut Blobs<'a>) -> Value {
     let [vertices, faces, lines] = [&pane.vertices, &pane.faces, &pane.lines].map(|b| blobs.number(b));
-    json!({
+    let mut packed = json!({
         "name": pane.name, "motion": panes::motion(&pane.motion), "origin": panes::triple(&pane.origin),
         "vertices": vertices, "faces": faces, "lines": lines, "ink": pane.ink,
         "faceCount": pane.faces.len() / 12, "normal": pane.normal.as_ref().map(panes::triple),
         "outline": pane.outline.iter().map(panes::triple).collect::<Vec<_>>(),
-    })
+    });
+    if let Some(worn) = worn {
+        packed["parts"] = json!(pane.parts.as_ref().map(|parts| blobs.number(parts)));
+        worn.add_to(&mut packed, blobs);
+    }
+    packed
 }
 
 fn layer<'a>(
@@ -278,7 +272,7 @@ fn layer<'a>(
         let of = extent[k];
         named_field(["x", "y", "z"][k], false, [of.lo, of.hi], [of.lo, of.hi])
     });
-    json!({
+    let mut packed = json!({
         "name": layer.name,
         "role": layer.role.word(),
         "main": layer.role == Role::Grains,
@@ -293,7 +287,9 @@ fn layer<'a>(
         "strays": places(strays),
         "solids": layer.solids.header(|bytes| blobs.number(bytes)),
         "frames": frames,
-    })
+    });
+    layer.wear.add_to(&mut packed, blobs);
+    packed
 }
 
 fn arrow_json(key: &ArrowKey) -> Value {
@@ -306,7 +302,12 @@ fn arrow_json(key: &ArrowKey) -> Value {
 
 fn named_field(name: &str, whole: bool, all: [f64; 2], shown: [f64; 2]) -> Value {
     let (unit, factor) = scale::readable(field::unit(name), shown[0].abs().max(shown[1].abs()));
-    json!({ "name": name, "whole": whole, "things": whole && field::names_things(name), "unit": unit, "factor": factor, "all": all, "shown": shown })
+    let mut field = json!({ "name": name, "whole": whole, "things": whole && field::names_things(name), "unit": unit, "factor": factor, "all": all, "shown": shown });
+    let codes = field::codes(name, &[]);
+    if !codes.is_empty() {
+        field["codes"] = json!(codes);
+    }
+    field
 }
 
 /// A program without indentation and without lines of comments.

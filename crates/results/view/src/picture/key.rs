@@ -9,13 +9,28 @@ use stream::{Table, Values};
 /// What the colours mean.
 pub(crate) enum Key {
     /// A range of a field.
-    Bar { field: String, unit: &'static str, range: Range, beyond: [bool; 2], map: Map },
+    Bar(BarKey),
     /// Kinds by number, with their names; without any where there are more kinds than colours, which repeat then.
     Kinds { field: String, names: Vec<String> },
     /// Classes of size.
     Classes { classes: Classes, map: Map },
     /// The colours of the scan itself.
     None,
+}
+
+/// A range of values and their colours.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct BarKey {
+    /// What it is of: the name of a field, or words.
+    pub title: String,
+    pub unit: &'static str,
+    /// The ends, in that unit.
+    pub range: Range,
+    /// Whether there are values below, and above.
+    pub beyond: [bool; 2],
+    /// Whether colours go by the logarithm.
+    pub log: bool,
+    pub map: Map,
 }
 
 impl Key {
@@ -31,7 +46,7 @@ impl Key {
             Key::Classes { classes, map } => {
                 field::values(table, field::SIZE).map(|v| by_class(v, classes, *map))
             }
-            Key::Bar { field, range, map, .. } => field::values(table, field).map(|mut values| {
+            Key::Bar(BarKey { title, range, map, .. }) => field::values(table, title).map(|mut values| {
                 even_out(&mut values, bodies);
                 by_value(values, *range, *map)
             }),

@@ -64,15 +64,17 @@ pub fn render<E>(
     mut each: impl FnMut(usize, Vec<u8>) -> Result<(), E>,
 ) -> Result<(), E> {
     let walls_only = painted.layers.iter().all(|l| l.role == Role::Walls);
-    let see_through = |l: &&PaintedLayer| l.role == Role::Walls && !walls_only && options.wall_opacity < 1.0;
+    let opacity = |l: &PaintedLayer| if l.worn { options.coloured_opacity } else { options.wall_opacity };
+    let see_through = |l: &&PaintedLayer| l.role == Role::Walls && !walls_only && opacity(l) < 1.0;
     let (glass, solid): (Vec<&PaintedLayer>, Vec<&PaintedLayer>) =
         painted.layers.iter().partition(see_through);
     let keep = options.cut.then_some(|place: Vec3| lens.seen(place)[2] >= lens.distance);
     let extent = painted.ball();
+    let opacity = glass.first().map_or(1.0, |layer| opacity(layer));
     let mut solid = Shaded::new(&solid, &painted.rods, lens, extent, keep);
     let mut glass = Shaded::new(&glass, &[], lens, extent, keep);
     let mut walls = ThinWalls::new(&painted.panes, lens, options);
-    let (opacity, theme) = (options.wall_opacity as f32, Theme::of(options.dark));
+    let (opacity, theme) = (opacity as f32, Theme::of(options.dark));
     let (width, height) = (options.width as usize, options.height as usize);
     for top in (0..height).step_by(ROWS) {
         let rows = [top, (top + ROWS).min(height)].map(|row| row * SAMPLES);

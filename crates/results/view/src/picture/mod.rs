@@ -24,6 +24,8 @@ mod splat;
 mod survey;
 mod theme;
 mod thin_walls;
+mod veil;
+mod walls;
 
 pub use drawn_table::DrawnTable;
 pub use options::PictureOptions;

@@ -1,6 +1,7 @@
 //! What a picture is to be like.
 
-use crate::{Camera, Map};
+use crate::{Camera, Hidden, Map, PartValues, WallScale};
+use record::WallsEnd;
 
 /// A picture's settings.
 #[derive(Debug, Clone)]
@@ -25,6 +26,16 @@ pub struct PictureOptions {
     pub cut: bool,
     /// Light text on dark paper.
     pub dark: bool,
+    /// Where walls end: the camera does not look for grains that have fallen past all of them.
+    pub walls_end: Option<WallsEnd>,
+    /// What is not drawn.
+    pub hidden: Hidden,
+    /// What walls are coloured by; none: they are grey.
+    pub walls: Option<WallScale>,
+    /// How much of what is behind it a coloured wall hides, 0 to 1: a colour that is seen through is another one.
+    pub coloured_opacity: f64,
+    /// Values of the faces of each surface, in the unit of that.
+    pub surface_values: Vec<Option<PartValues>>,
 }
 
 impl Default for PictureOptions {
@@ -40,6 +51,11 @@ impl Default for PictureOptions {
             wall_opacity: 0.2,
             cut: false,
             dark: false,
+            walls_end: None,
+            hidden: Hidden::default(),
+            walls: None,
+            coloured_opacity: 1.0,
+            surface_values: Vec::new(),
         }
     }
 }

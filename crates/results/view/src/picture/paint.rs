@@ -10,6 +10,7 @@ use super::{
     solid::rods,
     survey::Survey,
     theme::Theme,
+    walls::WallKey,
 };
 use crate::appearance::scale::Range;
 use crate::things::{extras::GRAINS, sheet, solid::Solid, spheres::Spheres};
@@ -37,6 +38,8 @@ pub(crate) struct PaintedLayer<'a> {
     pub spheres: Spheres<'a>,
     /// A colour for each sphere, parts 0 to 1.
     pub colour: Vec<[f32; 3]>,
+    /// Whether they are wall spheres that are coloured by what was done to them.
+    pub worn: bool,
     /// The spheres of each clump.
     pub bodies: Vec<Vec<u32>>,
     /// Edges and faces of those that are polyhedra, with the place in `bodies`.
@@ -47,6 +50,8 @@ pub(crate) struct PaintedLayer<'a> {
 pub(crate) struct Pane {
     /// Corners of its faces [m].
     pub faces: Vec<[Vec3; 3]>,
+    /// A colour for each face, parts 0 to 1; none: that of walls.
+    pub colour: Option<Vec<[f32; 3]>>,
     /// Ends of its lines [m].
     pub lines: Vec<[Vec3; 2]>,
     /// How much a line hides [–].
@@ -73,6 +78,8 @@ pub(crate) struct Painted<'a> {
     /// Places that the camera must see [m].
     pub outline: Vec<Vec3>,
     pub key: Key,
+    /// What the colours of walls mean, where they are coloured.
+    pub wall_key: Option<WallKey>,
     /// Box that the view is fitted to [m].
     pub extent: [Range; 3],
 }
@@ -85,22 +92,30 @@ impl Painted<'_> {
         survey: &Survey,
         options: &PictureOptions,
     ) -> Result<Painted<'a>, ViewError> {
-        if survey.role().is_none() && surfaces.is_empty() {
+        if survey.is_empty() && surfaces.iter().all(|surface| options.hidden.hides_surface(&surface.name)) {
             return Err(ViewError::Empty);
         }
-        let key = survey.key(options);
+        let (key, wall_key) = (survey.key(options), survey.wall_key(options));
         let mut layers = Vec::new();
         let shrunk = if parts.iter().any(|p| p.role.is_rods()) { GRAINS } else { 1.0 };
-        for part in parts.iter().filter(|p| p.table.rows() > 0 && !p.role.is_rods()) {
+        let shown = |p: &&DrawnTable| !options.hidden.hides_layer(p.role, &p.name);
+        for part in parts.iter().filter(shown).filter(|p| p.table.rows() > 0 && !p.role.is_rods()) {
             let mut spheres = Spheres::of(part.table, &part.name)?;
             if part.role == Role::Grains {
                 spheres.shrunk = shrunk;
             }
             let shown = survey.role() == Some(part.role);
             let bodies = part.bodies();
-            let colour = if shown { key.colours(part.table, &bodies) } else { plain(spheres.len()) };
+            let worn = wall_key.as_ref().filter(|_| part.role == Role::Walls);
+            let worn = worn.and_then(|key| key.of_spheres(part.table));
+            let is_worn = worn.is_some();
+            let colour = match worn {
+                Some(worn) => worn,
+                None if shown => key.colours(part.table, &bodies),
+                None => plain(spheres.len()),
+            };
             let solids = if shrunk == 1.0 { solids(part, &spheres, &bodies, &colour) } else { Vec::new() };
-            layers.push(PaintedLayer { role: part.role, spheres, colour, bodies, solids });
+            layers.push(PaintedLayer { role: part.role, spheres, colour, worn: is_worn, bodies, solids });
         }
         let mut painted = Painted {
             layers,
@@ -112,10 +127,11 @@ impl Painted<'_> {
             panes: Vec::new(),
             outline: Vec::new(),
             key,
+            wall_key,
             extent: survey.extent(),
         };
-        parts.iter().for_each(|part| painted.add_rods(part, options));
-        painted.place(surfaces, survey, options.time.unwrap_or(0.0));
+        parts.iter().filter(shown).for_each(|part| painted.add_rods(part, options));
+        painted.place(surfaces, survey, options);
         Ok(painted)
     }
 
@@ -135,10 +151,14 @@ impl Painted<'_> {
     }
 
     /// Places the surfaces; a plane is looked at where there is nothing else.
-    fn place(&mut self, surfaces: &[WallSurface], survey: &Survey, time: f64) {
+    fn place(&mut self, surfaces: &[WallSurface], survey: &Survey, options: &PictureOptions) {
+        let time = options.time.unwrap_or(0.0);
         let mut outline = survey.outline.clone();
         self.outline = outline.points();
-        for sheet in sheet::sheets(surfaces, self.extent) {
+        for (number, sheet) in sheet::sheets(surfaces, self.extent).into_iter().enumerate() {
+            if options.hidden.hides_surface(&sheet.surface.name) {
+                continue;
+            }
             let pose = sheet.surface.motion.pose(time);
             let vertices: Vec<Vec3> = sheet.vertices.iter().map(|v| pose.position(v)).collect();
             let faces = sheet.faces.iter().map(|f| f.map(|v| vertices[v as usize])).collect();
@@ -154,7 +174,12 @@ impl Painted<'_> {
                 outline.add(&vertices);
             }
             let opaque = sheet.closed && self.layers.is_empty();
-            self.panes.push(Pane { faces, lines, ink: sheet.ink, opaque, side });
+            let values = options.surface_values.get(number).and_then(Option::as_ref);
+            let colour = self.wall_key.as_ref().zip(values).map(|(key, values)| {
+                let value = |part: &u32| f64::from(values.get(*part as usize).copied().unwrap_or(0.0));
+                key.colours(sheet.parts.iter().map(value))
+            });
+            self.panes.push(Pane { faces, colour, lines, ink: sheet.ink, opaque, side });
         }
         self.outline = outline.points();
         self.extent = sheet::box_of(&self.outline);

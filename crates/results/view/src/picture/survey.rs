@@ -3,15 +3,16 @@
 use super::{
     counts::Counts,
     drawn_table::DrawnTable,
-    key::{Key, scan_colours},
+    key::{BarKey, Key, scan_colours},
     options::PictureOptions,
     shapes::{ArrowKey, ArrowSurvey},
+    walls::WallKey,
 };
-use crate::appearance::{classes::Sizes, colour, field, scale::Range};
-use crate::things::{outline::Outline, sheet::box_of, spheres::Spheres};
+use crate::appearance::{classes::Sizes, colour, field, scale::Range, wall_scale::WallSurvey};
+use crate::things::{outline::Outline, sheet::box_of, spheres::Spheres, wear_state::WORN};
 use crate::{GrainCount, Role, SurfaceShape, ViewError, WallSurface};
 use geom::Vec3;
-use stream::Table;
+use stream::{Table, Values};
 
 /// Values of a moment that are kept to find the range of the colours, at most, when there are many moments.
 const SAMPLE: usize = 20_000;
@@ -25,6 +26,9 @@ pub struct Survey {
     moments: usize,
     /// Most grains, wall spheres and points of a moment.
     counts: Counts,
+    walls: WallSurvey,
+    /// Whether any sphere or point was seen.
+    found: bool,
 }
 
 /// What is coloured, by what.
@@ -52,17 +56,20 @@ impl Survey {
         options: &PictureOptions,
     ) -> Result<(), ViewError> {
         self.moments += 1;
-        for part in parts {
+        for part in parts.iter().filter(|p| !options.hidden.hides_layer(p.role, &p.name)) {
             if let Role::Arrows(of) = part.role {
                 self.arrows.add(of, part.table);
             }
         }
-        let parts = || parts.iter().filter(|p| p.table.rows() > 0 && !p.role.is_rods());
+        let shown = |p: &&DrawnTable| !options.hidden.hides_layer(p.role, &p.name);
+        let parts = || parts.iter().filter(shown).filter(|p| p.table.rows() > 0 && !p.role.is_rods());
         for part in parts() {
             let spheres = Spheres::of(part.table, &part.name)?;
-            self.outline.add_spheres(&spheres, &part.bodies(), part.role != Role::Walls);
+            let end = options.walls_end.filter(|_| part.role == Role::Grains);
+            self.outline.add_spheres(&spheres, &part.bodies(), part.role != Role::Walls, end);
         }
-        for surface in surfaces.iter().filter(|s| self.moments == 1 || s.motion.moves()) {
+        let surfaces = surfaces.iter().filter(|s| !options.hidden.hides_surface(&s.name));
+        for surface in surfaces.filter(|s| self.moments == 1 || s.motion.moves()) {
             if let SurfaceShape::Mesh(mesh) = &surface.shape {
                 let pose = surface.motion.pose(options.time.unwrap_or(0.0));
                 self.outline.add(&mesh.vertices.iter().map(|v| pose.position(v)).collect::<Vec<Vec3>>());
@@ -76,6 +83,14 @@ impl Survey {
             walls: self.counts.walls.max(rows(Role::Walls)),
             points: self.counts.points.max(rows(Role::Cloud)),
         };
+        self.found |= parts().next().is_some();
+        if options.walls.is_some() {
+            let spheres = parts().filter_map(|part| part.table.get(WORN)).flat_map(Values::iter);
+            let faces = options.surface_values.iter().flatten().flat_map(|values| values.iter());
+            self.walls.add(spheres.chain(faces.map(|value| f64::from(*value))));
+        }
+        // Walls that are coloured by what was done to them are not coloured by anything else.
+        let parts = || parts().filter(|p| p.role != Role::Walls || options.walls.is_none());
         let Some(first) = parts().min_by_key(|p| p.role) else { return Ok(()) };
         if self.colours.as_ref().is_none_or(|c| first.role < c.role) {
             self.colours = Some(Colours::of(first, options));
@@ -83,6 +98,11 @@ impl Survey {
         let Some(colours) = &mut self.colours else { return Ok(()) };
         let role = colours.role;
         parts().filter(|p| p.role == role).try_for_each(|part| colours.add(part))
+    }
+
+    /// Whether no sphere and no point was seen.
+    pub(super) fn is_empty(&self) -> bool {
+        !self.found
     }
 
     /// What is coloured.
@@ -110,6 +130,11 @@ impl Survey {
         box_of(&self.outline.points())
     }
 
+    /// What the colours of walls mean.
+    pub(super) fn wall_key(&self, options: &PictureOptions) -> Option<WallKey> {
+        Some(WallKey::of(&self.walls, options.walls?))
+    }
+
     /// What the colours mean.
     pub(super) fn key(&self, options: &PictureOptions) -> Key {
         let Some(Colours { field: Some(field), whole, kinds, values, all, sizes, .. }) = &self.colours else {
@@ -121,8 +146,9 @@ impl Survey {
         }
         let few = all.hi < colour::KIND_COUNT as f64;
         if *whole && all.lo >= 0.0 && (few || field::names_things(&name)) {
-            let count = if few { all.hi as usize + 1 } else { 0 };
-            let names = (0..count).map(|k| kinds.get(k).cloned().unwrap_or_else(|| k.to_string()));
+            let codes = field::codes(&name, kinds);
+            let count = if few || all.hi < codes.len() as f64 { all.hi as usize + 1 } else { 0 };
+            let names = (0..count).map(|k| codes.get(k).cloned().unwrap_or_else(|| k.to_string()));
             return Key::Kinds { field: name, names: names.collect() };
         }
         let range = match options.range {
@@ -131,7 +157,14 @@ impl Survey {
         };
         let slack = 1e-9 * (range.hi - range.lo);
         let beyond = [all.lo < range.lo - slack, all.hi > range.hi + slack];
-        Key::Bar { unit: field::unit(&name), field: name, range, beyond, map: options.map }
+        Key::Bar(BarKey {
+            unit: field::unit(&name),
+            title: name,
+            range,
+            beyond,
+            log: false,
+            map: options.map,
+        })
     }
 }
 

@@ -1,4 +1,5 @@
-//! Thin walls in a picture: each veils what is behind it, the farther ones first.
+//! Thin walls in a picture: each veils what is behind it, the farther ones first. Of coloured ones that hide all behind them, the nearest
+//! counts at each sample, and what is behind it is not drawn.
 
 use super::{
     lens::{Lens, SAMPLES},
@@ -7,6 +8,7 @@ use super::{
     shadow::{LAMP, Shadow},
     splat::{Depths, Met},
     theme::Theme,
+    veil::Veil,
 };
 use crate::appearance::colour;
 use geom::Vec3;
@@ -24,12 +26,22 @@ const LINE: f64 = 1.3;
 /// How much a shadow on a face hides, at least [–].
 const SHADOW: f32 = 0.6;
 
+/// How much less light and shadow change the colour of a value [–].
+const COLOURED: f32 = 0.6;
+
+/// How much farther than a face the lines on it may be, as a share [–].
+const ON_FACE: f64 = 2e-3;
+
 /// A triangle on the picture.
 struct Piece {
     /// Column and row [sample], and 1/z [1/m], which is linear on the picture.
     corner: [[f64; 3]; 3],
     /// Brightness, and how much it hides [–].
     tone: [f32; 2],
+    /// Its colour in full light.
+    colour: [f32; 3],
+    /// Whether that shows a value: light changes it less.
+    coloured: bool,
     /// Nothing nearer than this is drawn: largest 1/z [1/m].
     farthest: f64,
     /// Planes before or behind all grains are before or behind all meshes too: 0 behind, 1 mesh, 2 before.
@@ -42,9 +54,6 @@ struct Piece {
     plane: bool,
 }
 
-/// Brightness times share, and share, of what veils a sample.
-type Veil = [f32; 2];
-
 /// All thin walls in a picture.
 pub struct ThinWalls {
     pieces: Vec<Piece>,
@@ -54,13 +63,17 @@ pub struct ThinWalls {
     first: usize,
     /// How much darker a face is in a shadow [–].
     shade: f32,
+    /// Whether any piece hides all behind it.
+    any_solid: bool,
 }
 
 impl ThinWalls {
     /// What is drawn of `panes`; no row is held yet.
     pub fn new(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> ThinWalls {
         let shade = Theme::of(options.dark).shade;
-        ThinWalls { pieces: pieces(panes, lens, options), veils: Vec::new(), first: 0, shade }
+        let pieces = pieces(panes, lens, options);
+        let any_solid = pieces.iter().any(Piece::is_solid);
+        ThinWalls { pieces, veils: Vec::new(), first: 0, shade, any_solid }
     }
 
     /// Draws these rows of samples, from one to before another, and lets others go: panes where they are nearer than
@@ -72,24 +85,39 @@ impl ThinWalls {
         [solid, glass]: [&Depths; 2],
         shadow: &Shadow,
     ) {
-        let (ThinWalls { pieces, shade, .. }, width) = (&*self, lens.size[0]);
+        let (ThinWalls { pieces, shade, any_solid, .. }, width) = (&*self, lens.size[0]);
         if pieces.is_empty() {
             return;
         }
-        let mut veils = vec![[[0.0; 2]; 2]; width * (to - from)];
+        let mut veils = vec![[Veil::default(); 2]; width * (to - from)];
         veils.par_chunks_mut(width * BAND).enumerate().for_each(|(n, band)| {
             let first = from + n * BAND;
             let rows = [first, first + band.len() / width];
-            for piece in pieces {
+            // Nearest of what hides all behind it: 1/z [1/m].
+            let mut nearest = vec![0.0f64; if *any_solid { band.len() } else { 0 }];
+            for piece in pieces.iter().filter(|piece| piece.is_solid()) {
                 piece.fill(rows, width, |at, inverse| {
-                    let depth = (1.0 / inverse) as f32;
-                    if inverse <= piece.farthest && depth < solid.depth(at) {
+                    let (depth, own) = ((1.0 / inverse) as f32, at - rows[0] * width);
+                    if inverse <= piece.farthest && depth < solid.depth(at) && inverse > nearest[own] {
+                        nearest[own] = inverse;
+                        let (colour, hides) = piece.shaded(shadow, lens, at, 1.0 / inverse, *shade);
+                        band[own] = Default::default();
+                        band[own][usize::from(depth < glass.depth(at))].lay(colour, hides);
+                    }
+                });
+            }
+            for piece in pieces.iter().filter(|piece| !piece.is_solid()) {
+                let slack = if piece.face { 1.0 } else { 1.0 + ON_FACE };
+                piece.fill(rows, width, |at, inverse| {
+                    let (depth, own) = ((1.0 / inverse) as f32, at - rows[0] * width);
+                    let hidden = nearest.get(own).is_some_and(|nearest| inverse * slack < *nearest);
+                    if !hidden && inverse <= piece.farthest && depth < solid.depth(at) {
                         let before = usize::from(depth < glass.depth(at));
                         if piece.plane && before == 0 {
                             return;
                         }
-                        let tone = piece.shaded(shadow, lens, at, 1.0 / inverse, *shade);
-                        lay(&mut band[at - rows[0] * width][before], tone);
+                        let (colour, hides) = piece.shaded(shadow, lens, at, 1.0 / inverse, *shade);
+                        band[own][before].lay(colour, hides);
                     }
                 });
             }
@@ -99,22 +127,13 @@ impl ThinWalls {
 
     /// A colour as seen through what is between grains and wall spheres.
     pub fn behind(&self, sample: usize, under: [f32; 3]) -> [f32; 3] {
-        self.veils.get(sample.wrapping_sub(self.first)).map_or(under, |v| veiled(under, v[0]))
+        self.veils.get(sample.wrapping_sub(self.first)).map_or(under, |v| v[0].over(under))
     }
 
     /// A colour as seen through what is before both.
     pub fn before(&self, sample: usize, under: [f32; 3]) -> [f32; 3] {
-        self.veils.get(sample.wrapping_sub(self.first)).map_or(under, |v| veiled(under, v[1]))
+        self.veils.get(sample.wrapping_sub(self.first)).map_or(under, |v| v[1].over(under))
     }
-}
-
-fn lay(veil: &mut Veil, [bright, hides]: [f32; 2]) {
-    *veil = [veil[0] + hides * (bright - veil[0]), veil[1] + hides * (1.0 - veil[1])];
-}
-
-fn veiled(under: [f32; 3], [bright, hides]: Veil) -> [f32; 3] {
-    let wall = colour::fraction(colour::WALL);
-    std::array::from_fn(|k| under[k] * (1.0 - hides) + wall[k] * bright)
 }
 
 /// Everything to draw, far ones first.
@@ -123,15 +142,20 @@ fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
     for pane in panes {
         let most = if pane.side.is_some() { theme.ground } else { 1.0 };
         let first = pieces.len();
-        for face in &pane.faces {
+        for (number, face) in pane.faces.iter().enumerate() {
+            let worn = pane.colour.as_ref().and_then(|colour| colour.get(number)).copied();
             let seen = face.map(|p| lens.seen(p));
-            let tone =
-                [brightness(seen), if pane.opaque { 1.0 } else { most.min(options.wall_opacity as f32) }];
+            let opacity = if worn.is_some() { options.coloured_opacity } else { options.wall_opacity };
+            let tone = [brightness(seen), if pane.opaque { 1.0 } else { most.min(opacity as f32) }];
             let cut = before_the_eye(&seen, NEAREST * lens.distance);
             let on: Vec<[f64; 3]> = cut.iter().map(|p| projected(*p, lens)).collect();
-            pieces.extend(
-                (2..on.len()).map(|n| Piece { face: true, ..Piece::new([on[0], on[n - 1], on[n]], tone) }),
-            );
+            let part = |n: usize| Piece {
+                face: true,
+                coloured: worn.is_some(),
+                colour: worn.unwrap_or_else(|| colour::fraction(colour::WALL)),
+                ..Piece::new([on[0], on[n - 1], on[n]], tone)
+            };
+            pieces.extend((2..on.len()).map(part));
         }
         for line in &pane.lines {
             let ends = before_the_eye(&line.map(|p| lens.seen(p)), NEAREST * lens.distance);
@@ -196,6 +220,8 @@ impl Piece {
         Piece {
             corner,
             tone,
+            colour: colour::fraction(colour::WALL),
+            coloured: false,
             farthest: f64::INFINITY,
             rank: 1,
             face: false,
@@ -204,16 +230,25 @@ impl Piece {
         }
     }
 
-    /// Its tone at a sample: darker and thicker in a shadow.
-    fn shaded(&self, shadow: &Shadow, lens: &Lens, at: usize, depth: f64, shade: f32) -> [f32; 2] {
+    /// Whether it is a coloured face that hides all that is behind it.
+    fn is_solid(&self) -> bool {
+        self.coloured && self.face && self.tone[1] >= 0.999
+    }
+
+    /// Its lit colour at a sample, and how much it hides: darker and thicker in a shadow.
+    fn shaded(&self, shadow: &Shadow, lens: &Lens, at: usize, depth: f64, shade: f32) -> ([f32; 3], f32) {
+        let lit = |[bright, hides]: [f32; 2]| {
+            let bright = if self.coloured { bright + COLOURED * (1.0 - bright) } else { bright };
+            (self.colour.map(|c| (c * bright).min(1.0)), hides)
+        };
         if !self.face {
-            return self.tone;
+            return lit(self.tone);
         }
         let sample = [at % lens.size[0], at / lens.size[0]];
         let met = Met { normal: [0.0; 3], radius: 0.0, number: 0, body: None };
         let dark = 1.0 - shadow.lit(lens, lens.at(sample, depth), &met, sample);
         let [bright, hides] = self.tone;
-        [bright * (1.0 - shade * dark), hides + dark * (SHADOW - hides).max(0.0)]
+        lit([bright * (1.0 - shade * dark), hides + dark * (SHADOW - hides).max(0.0)])
     }
 
     /// Calls `paint` with the number and 1/z of every sample inside, in the rows given. A sample on the common edge of

@@ -1,7 +1,8 @@
 //! One moment of everything, for a picture.
 
 use crate::reading::show::{LayerHead, Show, add_surface};
-use crate::{DrawnTable, GrainCount, Role, ViewError, WallSurface};
+use crate::{DrawnTable, GrainCount, PartValues, Role, ViewError, WallSurface, WearState};
+use record::WallsEnd;
 use stream::Table;
 
 /// One thing at the moment shown.
@@ -17,16 +18,35 @@ pub struct Moment {
     until: f64,
     layers: Vec<MomentLayer>,
     surfaces: Vec<WallSurface>,
+    /// Where walls end, where the run tells it.
+    pub walls_end: Option<WallsEnd>,
+    /// What walls are coloured by at the time shown, and what is later so far, with their times [s].
+    wear: Option<(f64, WearState)>,
+    later: Option<(f64, WearState)>,
 }
+
+/// A hair of time [s]: messages have theirs in nanoseconds.
+const HAIR: f64 = 1e-9;
 
 impl Moment {
     /// At `time` [s], or at the end.
     pub fn at(time: Option<f64>) -> Moment {
-        Moment { until: time.unwrap_or(f64::INFINITY), layers: Vec::new(), surfaces: Vec::new() }
+        Moment {
+            until: time.unwrap_or(f64::INFINITY),
+            layers: Vec::new(),
+            surfaces: Vec::new(),
+            walls_end: None,
+            wear: None,
+            later: None,
+        }
     }
 
-    /// The time of the grains shown [s].
+    /// The time of the grains shown [s]; of walls that are coloured, where there are none.
     pub fn time(&self) -> Option<f64> {
+        self.time_of_grains().or_else(|| self.wear.as_ref().map(|(time, _)| *time))
+    }
+
+    fn time_of_grains(&self) -> Option<f64> {
         let grains = self.layers.iter().filter(|l| l.head.role == Role::Grains);
         grains.filter_map(|l| l.shown.as_ref()).map(|(time, _)| *time).reduce(f64::max)
     }
@@ -39,12 +59,40 @@ impl Moment {
     }
 
     /// Moves walls to their positions at the time shown.
-    pub fn settle(&mut self) {
+    ///
+    /// # Errors
+    /// Values of walls that do not fit their spheres.
+    pub fn settle(&mut self) -> Result<(), ViewError> {
+        self.choose_wear();
+        if self.time_of_grains().is_none() {
+            self.wear = self.later.take().or(self.wear.take());
+        }
         let time = self.time().unwrap_or(0.0);
         for layer in self.layers.iter_mut().filter(|l| l.head.motion.moves()) {
             let pose = layer.head.motion.pose(time);
             layer.shown = layer.shown.take().map(|(_, home)| (time, record::moved(&home, &pose)));
         }
+        let Some((_, wear)) = &self.wear else { return Ok(()) };
+        for (number, layer) in self.layers.iter_mut().enumerate() {
+            if let Some((_, table)) = &mut layer.shown {
+                wear.fill(number, table)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What came later is what is shown once the grains shown are as late.
+    fn choose_wear(&mut self) {
+        let time = self.time_of_grains();
+        let reached = |(later, _): &mut (f64, WearState)| time.is_some_and(|time| *later <= time + HAIR);
+        if let Some(reached) = self.later.take_if(reached) {
+            self.wear = Some(reached);
+        }
+    }
+
+    /// What the faces of each surface are coloured by.
+    pub fn surface_values(&self) -> Vec<Option<PartValues>> {
+        self.wear.as_ref().map(|(_, wear)| wear.of_surfaces(self.surfaces.len())).unwrap_or_default()
     }
 
     /// Planes and meshes.
@@ -64,8 +112,23 @@ impl Show for Moment {
         self.layers.len() - 1
     }
 
-    fn surface(&mut self, surface: WallSurface) {
-        add_surface(&mut self.surfaces, surface);
+    fn surface(&mut self, surface: WallSurface) -> usize {
+        add_surface(&mut self.surfaces, surface)
+    }
+
+    fn walls_end(&mut self, end: WallsEnd) {
+        self.walls_end = Some(end);
+    }
+
+    fn wear(&mut self, time: f64, state: WearState) -> Result<(), ViewError> {
+        self.choose_wear();
+        // Without grains, the state nearest to what is asked for.
+        let far = |time: f64| (time - self.until).abs();
+        let past = |(later, _): &(f64, WearState)| self.until.is_finite() && far(*later) <= far(time);
+        if self.time_of_grains().is_some() || !self.later.as_ref().is_some_and(past) {
+            self.later = Some((time, state));
+        }
+        Ok(())
     }
 
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
@@ -84,6 +147,7 @@ impl Show for Moment {
         let nearer = |(before, _): &(f64, Table)| last || far(time) < far(*before);
         if shown.as_ref().is_none_or(nearer) {
             *shown = Some((time, table));
+            self.choose_wear();
         }
         Ok(())
     }

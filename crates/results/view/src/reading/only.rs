@@ -1,7 +1,8 @@
 //! Shows only some of the grains: those whose field has a wanted value.
 
 use crate::appearance::field;
-use crate::{LayerHead, Role, Show, ViewError, WallSurface};
+use crate::{Hidden, LayerHead, Role, Show, ViewError, WallSurface, WearState};
+use record::WallsEnd;
 use stream::Table;
 
 /// Which grains are shown.
@@ -22,20 +23,34 @@ pub enum Wanted {
 
 /// Shows the wanted grains of all layers of grains, and everything else, on something else.
 pub struct Chosen<'a, S> {
-    only: Option<Only>,
+    /// A grain is shown if it has a wanted value of each field.
+    only: Vec<Only>,
     show: &'a mut S,
     /// Of each layer: its materials, where it has grains.
     layers: Vec<Option<Vec<String>>>,
-    /// Grains that were shown, and all of the layers that have the field, in all frames.
+    /// Grains that were shown, and all of the layers that have a field, in all frames.
     counts: [usize; 2],
-    /// Fields of a layer of grains that does not have it.
+    /// Whether a layer of grains had the field of each.
+    found: Vec<bool>,
+    /// Fields of a layer of grains that lacks one.
     without: Option<Vec<String>>,
+    /// What was added, by name.
+    names: (Vec<(Role, String)>, Vec<String>),
 }
 
 impl<'a, S: Show> Chosen<'a, S> {
     /// Without `only` all grains are shown.
-    pub fn new(only: Option<Only>, show: &'a mut S) -> Chosen<'a, S> {
-        Chosen { only, show, layers: Vec::new(), counts: [0; 2], without: None }
+    pub fn new(only: Vec<Only>, show: &'a mut S) -> Chosen<'a, S> {
+        let found = vec![false; only.len()];
+        Chosen {
+            only,
+            show,
+            layers: Vec::new(),
+            counts: [0; 2],
+            found,
+            without: None,
+            names: Default::default(),
+        }
     }
 
     /// Grains that were shown, and all, in all frames.
@@ -43,13 +58,15 @@ impl<'a, S: Show> Chosen<'a, S> {
         self.counts
     }
 
-    /// Refuses a field that no layer of grains has.
+    /// Refuses a field that no layer of grains has, and something to hide that is not there.
     ///
     /// # Errors
-    /// There are grains, and none has it.
-    pub fn check(&self) -> Result<(), ViewError> {
-        match (&self.only, &self.without, self.counts) {
-            (Some(only), Some(known), [_, 0]) => {
+    /// There are grains, and none has it; a name that nothing has.
+    pub fn check(&self, hidden: &Hidden) -> Result<(), ViewError> {
+        hidden.check(&self.names.0, &self.names.1)?;
+        let missing = self.only.iter().zip(&self.found).find(|(_, found)| !**found);
+        match (missing, &self.without) {
+            (Some((only, _)), Some(known)) => {
                 let name = field::canonical(&only.field).to_owned();
                 Err(ViewError::NoField { what: "only", name, known: known.clone() })
             }
@@ -57,39 +74,64 @@ impl<'a, S: Show> Chosen<'a, S> {
         }
     }
 
-    /// Rows of the wanted grains; `None`: the table does not have the field, and is shown whole.
-    fn chosen(&self, only: &Only, kinds: &[String], table: &Table) -> Result<Option<Vec<u32>>, ViewError> {
-        let Some(values) = field::values(table, field::canonical(&only.field)) else { return Ok(None) };
-        let [low, high] = match &only.wanted {
-            Wanted::Between(low, high) => [*low, *high],
+    /// Rows of the wanted grains; `None`: the table lacks all of the fields, and is shown whole.
+    fn chosen(&mut self, kinds: &[String], table: &Table) -> Result<Option<Vec<u32>>, ViewError> {
+        let mut wanted: Option<Vec<bool>> = None;
+        for (only, found) in self.only.iter().zip(&mut self.found) {
+            let Some(values) = field::values(table, field::canonical(&only.field)) else {
+                self.without = Some(field::known(table));
+                continue;
+            };
+            *found = true;
+            let [low, high] = only.ends(kinds)?;
+            let stays = wanted.get_or_insert_with(|| vec![true; values.len()]);
+            stays.iter_mut().zip(&values).for_each(|(stays, v)| *stays &= (low..=high).contains(v));
+        }
+        let rows =
+            |stays: Vec<bool>| (0..).zip(stays).filter(|(_, stays)| *stays).map(|(row, _)| row).collect();
+        Ok(wanted.map(rows))
+    }
+}
+
+impl Only {
+    /// The wanted values, from the first to the second.
+    fn ends(&self, kinds: &[String]) -> Result<[f64; 2], ViewError> {
+        match &self.wanted {
+            Wanted::Between(low, high) => Ok([*low, *high]),
             Wanted::Material(of) => match kinds.iter().position(|kind| kind == of) {
-                Some(number) => [number as f64; 2],
-                None => return Err(ViewError::NoMaterial { name: of.clone(), known: kinds.to_vec() }),
+                Some(number) => Ok([number as f64; 2]),
+                None => Err(ViewError::NoMaterial { name: of.clone(), known: kinds.to_vec() }),
             },
-        };
-        let rows = values.iter().enumerate().filter(|(_, v)| (low..=high).contains(*v));
-        Ok(Some(rows.map(|(row, _)| row as u32).collect()))
+        }
     }
 }
 
 impl<S: Show> Show for Chosen<'_, S> {
     fn layer(&mut self, head: LayerHead) -> usize {
         let layer = self.show.layer(head.clone());
+        self.names.0.push((head.role, head.name.clone()));
         self.layers.resize(self.layers.len().max(layer + 1), None);
         self.layers[layer] = (head.role == Role::Grains).then_some(head.kinds);
         layer
     }
 
-    fn surface(&mut self, surface: WallSurface) {
-        self.show.surface(surface);
+    fn surface(&mut self, surface: WallSurface) -> usize {
+        self.names.1.push(surface.name.clone());
+        self.show.surface(surface)
+    }
+
+    fn walls_end(&mut self, end: WallsEnd) {
+        self.show.walls_end(end);
+    }
+
+    fn wear(&mut self, time: f64, state: WearState) -> Result<(), ViewError> {
+        self.show.wear(time, state)
     }
 
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
-        let (Some(only), Some(Some(kinds))) = (&self.only, self.layers.get(layer)) else {
-            return self.show.push(layer, time, table);
-        };
-        let Some(rows) = self.chosen(only, kinds, &table)? else {
-            self.without = Some(field::known(&table));
+        let kinds = self.layers.get(layer).cloned().flatten().filter(|_| !self.only.is_empty());
+        let Some(kinds) = kinds else { return self.show.push(layer, time, table) };
+        let Some(rows) = self.chosen(&kinds, &table)? else {
             return self.show.push(layer, time, table);
         };
         self.counts = [self.counts[0] + rows.len(), self.counts[1] + table.rows()];
@@ -112,7 +154,13 @@ mod tests {
             self.1 - 1
         }
 
-        fn surface(&mut self, _: WallSurface) {}
+        fn surface(&mut self, _: WallSurface) -> usize {
+            0
+        }
+
+        fn wear(&mut self, _: f64, _: WearState) -> Result<(), ViewError> {
+            Ok(())
+        }
 
         fn push(&mut self, layer: usize, _: f64, table: Table) -> Result<(), ViewError> {
             self.0.push((layer, table.get("x").map(Values::to_f64).unwrap_or_default()));
@@ -128,14 +176,18 @@ mod tests {
     }
 
     fn shown(field: &str, wanted: Wanted) -> Result<(Seen, [usize; 2]), ViewError> {
+        shown_by(vec![Only { field: field.to_owned(), wanted }])
+    }
+
+    fn shown_by(only: Vec<Only>) -> Result<(Seen, [usize; 2]), ViewError> {
         let mut seen = Seen::default();
-        let mut chosen = Chosen::new(Some(Only { field: field.to_owned(), wanted }), &mut seen);
+        let mut chosen = Chosen::new(only, &mut seen);
         let walls = chosen.layer(LayerHead::new(Role::Walls, "walls"));
         let kinds = vec!["soil".to_owned(), "rock".to_owned()];
         let of = chosen.layer(LayerHead { kinds, ..LayerHead::new(Role::Grains, "grains") });
         chosen.push(walls, 0.0, grains())?;
         chosen.push(of, 0.0, grains())?;
-        chosen.check()?;
+        chosen.check(&Hidden::default())?;
         let counts = chosen.counts();
         Ok((seen, counts))
     }
@@ -146,6 +198,16 @@ mod tests {
         assert_eq!((seen.0, counts), (vec![(0, vec![1.0, 2.0, 3.0]), (1, vec![2.0, 3.0])], [2, 3]));
         let (seen, counts) = shown("x", Wanted::Between(1.0, 2.0)).unwrap();
         assert_eq!((seen.0[1].1.clone(), counts), (vec![1.0, 2.0], [2, 3]));
+    }
+
+    #[test]
+    fn of_several_ranges_a_grain_must_be_in_each() {
+        let only =
+            |field: &str, low, high| Only { field: field.to_owned(), wanted: Wanted::Between(low, high) };
+        let (seen, counts) = shown_by(vec![only("x", 1.0, 2.0), only("material", 1.0, 1.0)]).unwrap();
+        assert_eq!((seen.0[1].1.clone(), counts), (vec![2.0], [1, 3]));
+        let refused = shown_by(vec![only("x", 1.0, 2.0), only("y", 0.0, 1.0)]).err().expect("refused");
+        assert!(refused.to_string().contains("only: no field 'y' here"), "{refused}");
     }
 
     #[test]

@@ -1,12 +1,15 @@
 //! Reads a run, or walls: grains and wall spheres over time, planes and meshes, how walls move, and what is shown besides.
 
+use crate::reading::history::History;
 use crate::reading::show::{LayerHead, Show};
+use crate::reading::worn::{ShownPart, WornWalls};
 use crate::things::extras;
 use crate::{Arrows, Extras, Motion, Role, ViewError, WallSurface};
+use geom::Vec3;
 use record::column::{BROKEN, RADIUS, WALL};
-use record::metadata::{CLUMPS, MATERIALS};
-use record::topic::{BONDS, CONTACTS, PARTICLES, SURFACES, WALLS};
-use record::{ClumpRecord, Map, MaterialRecord, WallRecord};
+use record::metadata::{CLUMPS, MATERIALS, WALLS_END};
+use record::topic::{BONDS, CONTACTS, PARTICLES, SURFACES, WALL_WEAR, WALLS};
+use record::{ClumpRecord, Map, MaterialRecord, SurfaceShape, WallRecord, WallsEnd};
 use std::collections::{BTreeMap, HashMap};
 use stream::mcap::{Event, McapError};
 use stream::{Table, Values};
@@ -30,6 +33,10 @@ struct ViewedRun<'a, S> {
     waiting: Option<(f64, Table)>,
     /// All walls, once the run has named them.
     walls: Option<Vec<WallHead>>,
+    /// When grains were first seen, where that is shown.
+    history: Option<History>,
+    /// What grains did to walls, where that is shown.
+    worn: Option<WornWalls>,
     /// Messages of each topic that is shown.
     messages: BTreeMap<&'static str, usize>,
 }
@@ -66,12 +73,17 @@ pub fn show_run(
         usual: 0.0,
         waiting: None,
         walls: None,
+        history: extras.history.then(History::default),
+        worn: extras.wear.map(WornWalls::new),
         messages: BTreeMap::new(),
     };
     let mut others = Vec::new();
     for event in events {
         match event? {
             Event::Metadata { name, map } if name == MATERIALS => run.kinds = names(&map),
+            Event::Metadata { name, map } if name == WALLS_END => {
+                WallsEnd::read(&map).into_iter().for_each(|end| run.show.walls_end(end));
+            }
             // A record that cannot be read is one of spheres, as without it.
             Event::Metadata { name: of, map } if of == CLUMPS => {
                 run.clumps = ClumpRecord::from_map(name, &map).unwrap_or_default();
@@ -83,6 +95,7 @@ pub fn show_run(
                 CONTACTS if extras.arrows == Some(Arrows::Force) => {
                     run.contacts(time_ns as f64 / 1e9, &table)?;
                 }
+                WALL_WEAR if extras.wear.is_some() => run.wear(time_ns as f64 / 1e9, &table)?,
                 _ => others.push(topic),
             },
             Event::Bytes { topic, data, .. } if topic == SURFACES => run.surfaces(&data)?,
@@ -141,6 +154,7 @@ impl<S: Show> ViewedRun<'_, S> {
             let share = broken.unwrap_or_else(|| vec![0.0; table.rows()]);
             table.replace(BROKEN, Values::F64(share)).map_err(|e| ViewError::Table { why: e.to_string() })?;
         }
+        self.history.as_mut().map_or(Ok(()), |history| history.add(time, &mut table))?;
         let arrows = match self.extras.arrows {
             Some(Arrows::Velocity) => Some(extras::velocities(&table)?),
             _ => None,
@@ -180,6 +194,21 @@ impl<S: Show> ViewedRun<'_, S> {
             let cure = "set [output] contacts = true and run again, or show --vectors velocity";
             return Err(ViewError::NoSuch { option: "--vectors force".to_owned(), what: "contacts", cure });
         }
+        if let Some(worn) = &self.worn {
+            let option = "--walls-colour".to_owned();
+            if !self.messages.contains_key(WALL_WEAR) {
+                let cure =
+                    "set output.wear = true and run again (dem-run SCENE --set output.wear=true -o RUN)";
+                return Err(ViewError::NoSuch { option, what: "wear of walls (/wall_wear)", cure });
+            }
+            if worn.is_empty() {
+                let cure = "planes have no parts: give a wall as mesh = FILE, or measure the plane with dem-measure --wall-force all";
+                return Err(ViewError::NoSuch { option, what: "walls of triangles or spheres", cure });
+            }
+            if !worn.is_touched() {
+                return Err(ViewError::Untouched);
+            }
+        }
         Ok(())
     }
 
@@ -204,7 +233,15 @@ impl<S: Show> ViewedRun<'_, S> {
         let mut heads = Vec::new();
         for WallRecord { name, motion, surface } in WallRecord::read_all(data).map_err(ViewError::Surfaces)? {
             if let Some(shape) = surface {
-                self.show.surface(WallSurface { name: name.clone(), shape, motion: motion.clone() });
+                let areas = match &shape {
+                    SurfaceShape::Mesh(mesh) if self.worn.is_some() => Some(wear::of_triangles(mesh)),
+                    _ => None,
+                };
+                let surface =
+                    self.show.surface(WallSurface { name: name.clone(), shape, motion: motion.clone() });
+                if let (Some(worn), Some(areas)) = (&mut self.worn, areas) {
+                    worn.show(ShownPart::Surface(surface), vec![(heads.len() as u64, areas)]);
+                }
             }
             heads.push(WallHead { name, motion });
         }
@@ -212,7 +249,35 @@ impl<S: Show> ViewedRun<'_, S> {
             self.place(time, &table, &heads)?;
         }
         self.walls = Some(heads);
-        Ok(())
+        match &self.worn {
+            // Before the first interval nothing was done.
+            Some(worn) => self.show.wear(0.0, worn.state()),
+            None => Ok(()),
+        }
+    }
+
+    /// What grains did to parts of walls since the frame before.
+    fn wear(&mut self, time: f64, table: &Table) -> Result<(), ViewError> {
+        self.count(WALL_WEAR);
+        let Some(worn) = &mut self.worn else { return Ok(()) };
+        worn.take(time, table).map_err(|e| ViewError::Wear { time, why: e.why })?;
+        self.show.wear(time, worn.state())
+    }
+
+    /// A layer of wall spheres with the walls of its rows.
+    fn show_worn(&mut self, layer: usize, table: &Table, wall: &[f64]) {
+        let Some(worn) = &mut self.worn else { return };
+        let column = |name: &str| table.get(name).map(Values::to_f64).unwrap_or_default();
+        let [x, y, z, radius] = ["x", "y", "z", RADIUS].map(column);
+        let mut walls = Vec::new();
+        let mut first = 0;
+        for of_wall in wall.chunk_by(|a, b| a == b) {
+            let rows = first..first + of_wall.len();
+            let centres: Vec<Vec3> = rows.clone().map(|k| Vec3::new(x[k], y[k], z[k])).collect();
+            walls.push((of_wall[0] as u64, wear::of_spheres(&centres, &radius[rows])));
+            first += of_wall.len();
+        }
+        worn.show(ShownPart::Layer(layer), walls);
     }
 
     /// Wall spheres at rest are one layer; each wall that moves is a separate one, kept as it is at t = 0.
@@ -224,14 +289,20 @@ impl<S: Show> ViewedRun<'_, S> {
             (0..table.rows()).filter(|&i| keep(number[i] as usize)).map(|i| i as u32).collect()
         };
         let still = rows(&|wall| walls.get(wall).is_none_or(|w| !w.motion.moves()));
+        let of = |rows: &[u32]| rows.iter().map(|row| number[*row as usize]).collect::<Vec<f64>>();
         if !still.is_empty() {
-            self.push(WALLS, Role::Walls, time, table.select(&still))?;
+            let own = table.select(&still);
+            self.push(WALLS, Role::Walls, time, own.clone())?;
+            if let Some(layer) = self.layers.get(WALLS).copied() {
+                self.show_worn(layer, &own, &of(&still));
+            }
         }
         for (wall, WallHead { name, motion }) in walls.iter().enumerate().filter(|(_, w)| w.motion.moves()) {
             let own = rows(&|n| n == wall);
             if !own.is_empty() {
                 let layer = self.layer(Role::Walls, name, motion.clone());
                 let home = record::home(&table.select(&own), &motion.pose(time));
+                self.show_worn(layer, &home, &of(&own));
                 self.show.push(layer, 0.0, home)?;
             }
         }

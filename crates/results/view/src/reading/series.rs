@@ -1,7 +1,8 @@
 //! All moments of everything, for a film or a series of files; the caller chooses what is kept of each state.
 
 use crate::reading::show::{LayerHead, Show, add_surface};
-use crate::{DrawnTable, Role, ViewError, WallSurface};
+use crate::{DrawnTable, PartValues, Role, ViewError, WallSurface, WearState};
+use record::WallsEnd;
 use std::borrow::Cow;
 use stream::Table;
 
@@ -42,6 +43,10 @@ pub struct Series<T> {
     pub layers: Vec<SeriesLayer<T>>,
     /// Planes and meshes.
     pub surfaces: Vec<WallSurface>,
+    /// Where walls end, where the run tells it.
+    pub walls_end: Option<WallsEnd>,
+    /// What walls are coloured by, from times on [s].
+    wear: Vec<(f64, WearState)>,
     span: Span,
     keep: KeepState<T>,
 }
@@ -49,7 +54,7 @@ pub struct Series<T> {
 impl<T> Series<T> {
     /// Keeps what `keep` makes of each state in the span.
     pub fn new(span: Span, keep: KeepState<T>) -> Series<T> {
-        Series { layers: Vec::new(), surfaces: Vec::new(), span, keep }
+        Series { layers: Vec::new(), surfaces: Vec::new(), walls_end: None, wear: Vec::new(), span, keep }
     }
 
     /// The times that grains were kept of, in order; without grains, those of all else.
@@ -80,14 +85,37 @@ impl<T> SeriesLayer<T> {
 
 impl Series<Table> {
     /// Each layer at a time [s], in its order; `None` where it has no state.
-    pub fn tables(&self, time: f64) -> Vec<Option<Cow<'_, Table>>> {
-        let layers = self.layers.iter();
-        layers
-            .map(|layer| match &layer.home {
+    ///
+    /// # Errors
+    /// Values of walls that do not fit their spheres.
+    pub fn tables(&self, time: f64) -> Result<Vec<Option<Cow<'_, Table>>>, ViewError> {
+        let wear = self.wear_at(time);
+        let mut all = Vec::new();
+        for (number, layer) in self.layers.iter().enumerate() {
+            let mut table = match &layer.home {
                 Some(home) => Some(Cow::Owned(record::moved(home, &layer.head.motion.pose(time)))),
                 None => layer.at(time).map(Cow::Borrowed),
-            })
-            .collect()
+            };
+            if let (Some(wear), Some(table)) = (wear, &mut table)
+                && wear.of_layer(number).is_some()
+            {
+                wear.fill(number, table.to_mut())?;
+            }
+            all.push(table);
+        }
+        Ok(all)
+    }
+
+    /// What walls are coloured by at a time [s].
+    fn wear_at(&self, time: f64) -> Option<&WearState> {
+        // A hair: messages have their times in nanoseconds.
+        let last = self.wear.iter().rev().find(|(from, _)| *from <= time + 1e-9);
+        last.or(self.wear.first()).map(|(_, state)| state)
+    }
+
+    /// What the faces of each surface are coloured by at a time [s].
+    pub fn surface_values(&self, time: f64) -> Vec<Option<PartValues>> {
+        self.wear_at(time).map(|wear| wear.of_surfaces(self.surfaces.len())).unwrap_or_default()
     }
 
     /// What to draw of these tables.
@@ -118,8 +146,22 @@ impl<T> Show for Series<T> {
         self.layers.len() - 1
     }
 
-    fn surface(&mut self, surface: WallSurface) {
-        add_surface(&mut self.surfaces, surface);
+    fn surface(&mut self, surface: WallSurface) -> usize {
+        add_surface(&mut self.surfaces, surface)
+    }
+
+    fn walls_end(&mut self, end: WallsEnd) {
+        self.walls_end = Some(end);
+    }
+
+    fn wear(&mut self, time: f64, state: WearState) -> Result<(), ViewError> {
+        if time <= self.span.from {
+            self.wear.clear();
+        }
+        if time <= self.span.to + 1e-9 || self.wear.is_empty() {
+            self.wear.push((time, state));
+        }
+        Ok(())
     }
 
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {

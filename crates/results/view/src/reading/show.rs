@@ -1,7 +1,7 @@
 //! What layers are shown on: a page, one moment, or a series of moments.
 
-use crate::{DrawnTable, Motion, Page, Role, ViewError, WallSurface};
-use record::ClumpRecord;
+use crate::{DrawnTable, Motion, Page, Role, ViewError, WallSurface, WearState};
+use record::{ClumpRecord, WallsEnd};
 use stream::Table;
 
 /// One thing to show, without its states.
@@ -40,8 +40,15 @@ impl LayerHead {
 pub trait Show {
     /// Adds a layer; its number is for [`Show::push`].
     fn layer(&mut self, head: LayerHead) -> usize;
-    /// Adds a wall that is a plane or a mesh.
-    fn surface(&mut self, surface: WallSurface);
+    /// Adds a wall that is a plane or a mesh; its number is for [`Show::wear`].
+    fn surface(&mut self, surface: WallSurface) -> usize;
+    /// Colours the parts of walls from `time` [s] on.
+    ///
+    /// # Errors
+    /// A page beyond its limit.
+    fn wear(&mut self, time: f64, state: WearState) -> Result<(), ViewError>;
+    /// Tells where walls end; what shows no camera does not ask.
+    fn walls_end(&mut self, _: WallsEnd) {}
     /// Adds a state of a layer, at `time` [s].
     ///
     /// # Errors
@@ -59,8 +66,16 @@ impl Show for Page {
         layer
     }
 
-    fn surface(&mut self, surface: WallSurface) {
-        Page::surface(self, surface);
+    fn surface(&mut self, surface: WallSurface) -> usize {
+        Page::surface(self, surface)
+    }
+
+    fn walls_end(&mut self, end: WallsEnd) {
+        Page::walls_end(self, end);
+    }
+
+    fn wear(&mut self, time: f64, state: WearState) -> Result<(), ViewError> {
+        Page::wear(self, time, &state)
     }
 
     fn push(&mut self, layer: usize, time: f64, table: Table) -> Result<(), ViewError> {
@@ -69,8 +84,9 @@ impl Show for Page {
 }
 
 /// Adds a surface unless it is there: runs of two stages both have the walls near the cut.
-pub(crate) fn add_surface(surfaces: &mut Vec<WallSurface>, surface: WallSurface) {
-    if !surfaces.contains(&surface) {
+pub(crate) fn add_surface(surfaces: &mut Vec<WallSurface>, surface: WallSurface) -> usize {
+    surfaces.iter().position(|known| *known == surface).unwrap_or_else(|| {
         surfaces.push(surface);
-    }
+        surfaces.len() - 1
+    })
 }

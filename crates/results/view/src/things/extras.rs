@@ -10,6 +10,7 @@ use geom::Vec3;
 use record::column::{BROKEN, FIRST, FORCE, ID, POSITION, RADIUS, SECOND, VELOCITY, Vector as Columns};
 use std::collections::HashMap;
 use stream::{Table, Values};
+use wear::WearField;
 
 /// Columns of the vector of a rod.
 pub(crate) const ALONG: Columns = ["dx", "dy", "dz"];
@@ -36,6 +37,10 @@ pub struct Extras {
     /// Grains get the field `broken`: the share of their bonds that are broken.
     pub broken: bool,
     pub arrows: Option<Arrows>,
+    /// Grains get the fields `residence` and `origin`: how long they have been there, and whether from the start.
+    pub history: bool,
+    /// What the parts of walls are coloured by.
+    pub wear: Option<WearField>,
 }
 
 /// What arrows show.

@@ -7,3 +7,4 @@ pub(crate) mod sheet;
 pub(crate) mod solid;
 pub(crate) mod spheres;
 pub(crate) mod surface;
+pub(crate) mod wear_state;

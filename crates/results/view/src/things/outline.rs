@@ -3,6 +3,7 @@
 use crate::appearance::scale::Range;
 use crate::things::spheres::Spheres;
 use geom::Vec3;
+use record::WallsEnd;
 
 /// Spheres of a layer that are looked at, at most: their outline hardly depends on more.
 const SAMPLE: usize = 8192;
@@ -21,14 +22,29 @@ pub(crate) struct Outline {
 }
 
 impl Outline {
-    /// Takes in spheres; without their strays when they are `loose`. Each of the `bodies` is one grain.
-    pub fn add_spheres(&mut self, spheres: &Spheres, bodies: &[Vec<u32>], loose: bool) {
+    /// Takes in spheres; without their strays when they are `loose`. Each of the `bodies` is one grain. What is past the `end` of all walls,
+    /// and falls on, is left out, unless all of them are.
+    pub fn add_spheres(
+        &mut self,
+        spheres: &Spheres,
+        bodies: &[Vec<u32>],
+        loose: bool,
+        end: Option<WallsEnd>,
+    ) {
         let mut alone = vec![true; spheres.len()];
         bodies.iter().flatten().for_each(|&row| alone[row as usize] = false);
         let alone: Vec<u32> = (0..spheres.len() as u32).filter(|&row| alone[row as usize]).collect();
-        let all = alone.chunks(1).chain(bodies.iter().map(Vec::as_slice));
-        let step = if loose { (alone.len() + bodies.len()).div_ceil(SAMPLE).max(1) } else { 1 };
-        let grains: Vec<&[u32]> = all.step_by(step).collect();
+        let all = || alone.chunks(1).chain(bodies.iter().map(Vec::as_slice));
+        let is_past =
+            |end: &WallsEnd, row: u32| end.is_past(&spheres.at(row as usize), spheres.radius(row as usize));
+        let stays =
+            |rows: &&[u32]| !end.as_ref().is_some_and(|end| rows.iter().all(|row| is_past(end, *row)));
+        let mut grains: Vec<&[u32]> = all().filter(stays).collect();
+        if grains.is_empty() {
+            grains = all().collect();
+        }
+        let step = if loose { grains.len().div_ceil(SAMPLE).max(1) } else { 1 };
+        let grains: Vec<&[u32]> = grains.into_iter().step_by(step).collect();
         for (n, direction) in directions().enumerate() {
             let far = |row: usize| spheres.at(row).dot(&direction) + spheres.radius(row);
             let farthest_of = |rows: &&[u32]| {
@@ -118,10 +134,26 @@ mod tests {
         assert!((reach(&spheres, &bodies, true) - 1.0).abs() < 1e-9);
     }
 
+    /// A plant from which much falls is looked at, not the falling grains: as many as they are, they are no part of it.
+    #[test]
+    fn what_has_fallen_past_all_walls_is_not_looked_at() {
+        let table = with_strays(900);
+        let spheres = Spheres::of(&table, "grains").expect("spheres");
+        let reach = |end| {
+            let mut outline = Outline::default();
+            outline.add_spheres(&spheres, &[], true, end);
+            outline.points().iter().map(|p| p.norm()).fold(0.0, f64::max)
+        };
+        let down = Vec3::x();
+        assert!(reach(None) > 1e3 && reach(Some(WallsEnd { down, depth: 1e5 })) > 1e3);
+        assert!((reach(Some(WallsEnd { down, depth: 1.5 })) - 1.0).abs() < 1e-9);
+        assert!(reach(Some(WallsEnd { down, depth: -2.0 })) > 1e3, "all of them have fallen");
+    }
+
     /// Farthest that an outline goes.
     fn reach(table: &Table, bodies: &[Vec<u32>], loose: bool) -> f64 {
         let mut outline = Outline::default();
-        outline.add_spheres(&Spheres::of(table, "grains").expect("spheres"), bodies, loose);
+        outline.add_spheres(&Spheres::of(table, "grains").expect("spheres"), bodies, loose, None);
         outline.points().iter().map(|p| p.norm()).fold(0.0, f64::max)
     }
 

@@ -11,6 +11,7 @@
 
 mod collection;
 mod fields;
+mod ply;
 mod polydata;
 mod series;
 
@@ -36,7 +37,7 @@ impl Reach {
     /// # Errors
     /// A position or radius is missing or not finite.
     pub fn add(&mut self, role: Role, table: &Table, name: &str) -> Result<(), ViewError> {
-        self.0.add_spheres(&Spheres::of(table, name)?, &[], role != Role::Walls);
+        self.0.add_spheres(&Spheres::of(table, name)?, &[], role != Role::Walls, None);
         Ok(())
     }
 

@@ -1,24 +1,28 @@
 //! Where walls are loaded and worn: force and sliding work by wall sphere and triangle, or by cell of space.
 //!
-//! Sliding work W = Σ |F_t · slip| is what Archard's law (1953, J. Appl. Phys. 24, DOI 10.1063/1.1721448) turns into a
-//! worn volume, k W / (μ H). A run that adds up over every step what grains do to spheres and triangles says to which they do it (`part_load`); of a run
+//! Sliding work W = Σ |F_t · slip| is what Archard's law turns into a worn depth (`life`). A run that adds up over every step what grains
+//! do to spheres and triangles says to which they do it (`parts`); of a run
 //! that has contacts alone, a contact belongs to the wall sphere whose surface is nearest to its point, wherever the
 //! sphere is at that time, or to the cube of space it lies in, at t = 0 if its wall moves. A part is listed where the file of its wall has it, so that the
 //! map of a wall that moves, or was put elsewhere, is one of its body; the area of a cube is taken as the square of its side,
 //! which is that of a flat wall along a face of it.
 
+mod life;
 mod map;
-mod part_load;
+mod of_contacts;
+mod parts;
 
-use self::part_load::PartLoads;
+use self::life::WearLife;
+use self::of_contacts::ContactLoads;
+use self::parts::{SphereParts, WornPart};
 use crate::definition::{ArgumentKind, AskError, Asked, Frames, Measure};
-use crate::geometry::cells::cell_of;
 use crate::observer::{NO_CONTACTS, Observer};
-use crate::sheet::{Chart, Head, Row, Summary};
+use crate::run::SLACK;
+use crate::sheet::{Chart, Geometry, Head, Row, Summary};
 use crate::walls::filter::WallContactFilter;
-use crate::{Contact, MeasureError, PartWear, Partner, Run, RunMessage};
-use geom::{Grid, Vec3};
-use std::collections::BTreeMap;
+use crate::{MeasureError, Run, RunMessage};
+use geom::{Shown, Vec3};
+use wear::{PartLoads, PartWear, WallWear};
 
 /// A run without contacts and without sums of parts.
 const NO_WEAR: MeasureError = MeasureError::Channel {
@@ -34,48 +38,24 @@ const NO_SPHERES: MeasureError = MeasureError::Channel {
     cure: "set [output] wear = true for triangles, or give --cell M for a map by cells of space",
 };
 
-/// Where the numbers come from.
-const OF_EVERY_STEP: &str = "sums over every step (/wall_wear)";
-
-/// The load on a part of the wall.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct WallLoad {
-    /// Σ over frames of the normal force [N].
-    normal: f64,
-    /// Normal force of this frame so far, and the largest of all frames [N].
-    now: f64,
-    largest: f64,
-    /// Sliding work [J].
-    work: f64,
-    contacts: u64,
-}
-
-/// Wall spheres by position.
-struct NearSpheres {
-    /// Messages of wall spheres that had been read.
-    seen: u64,
-    grid: Grid,
-    /// Distance from a contact up to which spheres count [m].
-    reach: f64,
-}
-
 /// Measures wear by position.
 pub struct Wear {
     what: WallContactFilter,
     /// Side of the cubes [m]; `None`: by wall sphere.
     cell: Option<f64>,
-    by_sphere: BTreeMap<usize, WallLoad>,
-    by_cell: BTreeMap<[i64; 3], WallLoad>,
+    life: Option<WearLife>,
+    /// Time from which on sums count [s].
+    from: f64,
+    contacts: ContactLoads,
     /// Sums over every step; `None` while the run has shown none.
-    parts: Option<PartLoads>,
-    near: Option<NearSpheres>,
-    /// Wall spheres as their files have them, and their radii there [m].
-    home: Vec<(Vec3, f64)>,
+    sums: Option<PartLoads>,
+    /// Begin of the first interval that counts, and end of the last [s].
+    span: Option<(f64, f64)>,
+    /// Messages of sums of parts that count.
     frames: u64,
-    /// Messages of sums of parts.
-    part_frames: u64,
-    contact_frames: u64,
-    elsewhere: u64,
+    spheres: Option<SphereParts>,
+    /// What was listed last, with its rows.
+    listed: (Vec<WornPart>, Vec<Row>),
 }
 
 impl Wear {
@@ -92,88 +72,124 @@ impl Wear {
                 cure: "give a length above 0",
             });
         }
+        let (contacts, listed) = (ContactLoads::default(), Default::default());
+        let (life, from) = (None, f64::NEG_INFINITY);
         Ok(Wear {
             what,
             cell,
-            by_sphere: BTreeMap::new(),
-            by_cell: BTreeMap::new(),
-            parts: None,
-            near: None,
-            home: Vec::new(),
+            life,
+            from,
+            contacts,
+            sums: None,
+            span: None,
             frames: 0,
-            part_frames: 0,
-            contact_frames: 0,
-            elsewhere: 0,
+            spheres: None,
+            listed,
         })
     }
 
-    /// The wall sphere whose surface is nearest to a point; `None` when none is near.
-    fn sphere(&mut self, run: &Run, point: &Vec3) -> Option<usize> {
-        let spheres = &run.spheres;
-        if self.near.as_ref().is_none_or(|near| near.seen != run.spheres_seen) {
-            let largest = spheres.radius.iter().copied().fold(0.0, f64::max);
-            let grid = Grid::new(&spheres.position, (2.0 * largest).max(f64::MIN_POSITIVE));
-            self.near = Some(NearSpheres { seen: run.spheres_seen, grid, reach: 1.5 * largest });
+    /// Takes the sums of an interval; those of one that begins before what is looked at are left out.
+    fn add_sums(&mut self, run: &Run, wear: &WallWear) -> Result<(), MeasureError> {
+        let wall = self.what.index(run)?;
+        let sums = self.sums.get_or_insert_default();
+        let before = self.span.map_or(wear.time, |(_, until)| until);
+        let begin = if wear.interval > 0.0 { wear.time - wear.interval } else { before };
+        if begin < self.from - 0.5 * run.step - SLACK {
+            return Ok(());
         }
-        let NearSpheres { grid, reach, .. } = self.near.as_ref()?;
-        let gap = |k: &u32| {
-            let k = *k as usize;
-            (spheres.position[k] - point).norm() - spheres.radius[k]
-        };
-        let near = grid.within(&spheres.position, *point, *reach);
-        near.min_by(|a, b| gap(a).total_cmp(&gap(b))).map(|k| k as usize)
-    }
-
-    fn add(&mut self, run: &Run, time: f64, contact: &Contact) -> Result<(), MeasureError> {
-        let borne = match self.cell {
-            Some(cell) => {
-                let point = match contact.partner {
-                    Partner::Wall(wall) => run.home(wall, time, &contact.point),
-                    Partner::Grain(_) => contact.point,
-                };
-                let key = cell_of(&point, cell)?;
-                self.by_cell.entry(key).or_default()
-            }
-            None => match self.sphere(run, &contact.point) {
-                Some(sphere) => self.by_sphere.entry(sphere).or_default(),
-                None => {
-                    self.elsewhere += 1;
-                    return Ok(());
-                }
-            },
-        };
-        let normal = contact.force.dot(&contact.normal).abs();
-        borne.normal += normal;
-        borne.now += normal;
-        borne.work += contact.work;
-        borne.contacts += u64::from(contact.acts());
+        sums.add(wear, |row: &PartWear| self.what.takes(run, wall, row.part.0, &row.position));
+        self.span = Some((self.span.map_or(begin, |(first, _)| first), wear.time));
+        self.frames += 1;
         Ok(())
     }
 
-    fn row(&self, position: Vec3, size: f64, area: f64, b: &WallLoad) -> Row {
-        let frames = self.frames as f64;
-        let mean = b.normal / frames;
-        vec![
-            position.x,
-            position.y,
-            position.z,
-            size,
-            b.contacts as f64,
-            mean,
-            b.largest,
-            b.work,
-            b.work / area,
-            mean / area,
-            f64::NAN,
-            f64::NAN,
-        ]
+    /// Rows of spheres and triangles with sums over every step.
+    fn end_of_sums(
+        &mut self,
+        run: &Run,
+        sums: &PartLoads,
+        rows: &mut Vec<Row>,
+    ) -> Result<Summary, MeasureError> {
+        let wall = self.what.index(run)?;
+        let wanted = |own: u64| wall.is_none_or(|wall| wall == own);
+        let (from, until) = self.span.unwrap_or_default();
+        if sums.length() <= 0.0 && self.from.is_finite() {
+            let wanted = format!("that begins its interval at {} s or later", Shown(self.from));
+            return Err(MeasureError::NoFrame { wanted, first: 0.0, last: until });
+        }
+        let spheres = self.spheres.take().unwrap_or_else(|| SphereParts::of(run));
+        let parts = parts::of_sums(run, &spheres, sums, wanted);
+        let life = self.life.as_ref();
+        rows.extend(parts.iter().map(|part| part.row(run, life, sums.length())));
+        let over = format!("sums over every step (/wall_wear) from {} to {} s", Shown(from), Shown(until));
+        let summary = self.totals(run, rows, &parts, sums.length());
+        self.listed = (parts, rows.clone());
+        let summary = summary.with("frames", "1", self.frames as f64).note(over);
+        Ok(self.planes(run, wanted).into_iter().fold(summary, Summary::note))
+    }
+
+    /// Why walls that are planes have no rows.
+    fn planes(&self, run: &Run, wanted: impl Fn(u64) -> bool) -> Option<String> {
+        let is_plane = |k: &usize| wanted(*k as u64) && run.is_plane(*k);
+        let planes: Vec<&str> =
+            (0..run.walls.len()).filter(is_plane).map(|k| run.walls[k].as_str()).collect();
+        let first = planes.first()?;
+        let (are, no_row) =
+            if planes.len() == 1 { ("is a plane", "it has") } else { ("are planes", "they have") };
+        Some(format!(
+            "{} {are}, without parts: {no_row} no row. --wall-force all --wall {first} tells the sums of one, --cell M its map ([output] contacts = true)",
+            planes.join(", ")
+        ))
+    }
+
+    /// What all rows have together, and how deep they are worn after a time of this length [s].
+    fn totals(&self, run: &Run, rows: &[Row], parts: &[WornPart], length: f64) -> Summary {
+        let column = |k: usize| rows.iter().map(move |row| row[k]).filter(|value| value.is_finite());
+        let known = |sum: f64| if rows.is_empty() { f64::NAN } else { sum };
+        let summary = Summary::default().with("places", "1", rows.len() as f64).with(
+            "sliding_work",
+            "J",
+            known(column(7).sum()),
+        );
+        let summary = match &self.life {
+            Some(life) => self.lasting(run, summary, rows, parts).note(life.words(length)),
+            None => summary,
+        };
+        summary.with("largest_work", "J", known(column(7).fold(0.0, f64::max)))
+    }
+
+    /// Adds the largest depth and rate, and the shortest life, and says where they are.
+    fn lasting(&self, run: &Run, summary: Summary, rows: &[Row], parts: &[WornPart]) -> Summary {
+        let depth = |row: &Row| row[12];
+        let deepest = (0..rows.len())
+            .filter(|k| depth(&rows[*k]).is_finite())
+            .max_by(|a, b| depth(&rows[*a]).total_cmp(&depth(&rows[*b])));
+        let of = |column: usize| deepest.map_or(f64::NAN, |k| rows[k][column]);
+        let summary = summary.with("largest_depth", "mm", of(12)).with("largest_rate", "mm/1000 h", of(13));
+        let lasts = deepest.and_then(|k| rows[k].get(14).copied());
+        let summary = lasts.into_iter().fold(summary, |sum, life| sum.with("shortest_life", "h", life));
+        let without = rows.iter().filter(|row| !depth(row).is_finite()).count();
+        let summary = if without > 0 {
+            let parts = geom::counted(without, "row");
+            summary
+                .note(format!("{parts} without a depth: no --wear-coefficient for the material of the wall"))
+        } else {
+            summary
+        };
+        let Some(k) = deepest.filter(|k| depth(&rows[*k]) > 0.0) else { return summary };
+        let part = parts.get(k).map_or_else(String::new, |part| {
+            let wall = run.walls.get(part.wall()).map_or("", String::as_str);
+            format!(", part {} of '{wall}'", part.part_number())
+        });
+        let [x, y, z] = [0, 1, 2].map(|axis| Shown(rows[k][axis]));
+        summary.note(format!("deepest at {x}, {y}, {z} m{part}"))
     }
 }
 
 impl Observer for Wear {
     fn heads(&self) -> Vec<Head> {
         let size = if self.cell.is_some() { "side" } else { "radius" };
-        Head::list(&[
+        let mut heads = Head::list(&[
             ("x", "m"),
             ("y", "m"),
             ("z", "m"),
@@ -186,83 +202,83 @@ impl Observer for Wear {
             ("pressure", "Pa"),
             ("impacts", "1"),
             ("impact_energy", "J"),
-        ])
+        ]);
+        heads.extend(self.life.iter().flat_map(WearLife::heads));
+        heads
     }
 
     fn observe(&mut self, run: &Run, message: RunMessage, _: &mut Vec<Row>) -> Result<(), MeasureError> {
-        if self.home.is_empty() {
-            self.home = run.spheres_of_files();
+        // A wall that a servo moves is taken where it is in the first frame that is measured.
+        if self.cell.is_none() && self.spheres.is_none() && !run.spheres.position.is_empty() {
+            self.spheres = Some(SphereParts::of(run));
         }
-        let contacts = match message {
-            RunMessage::Contacts(contacts) => contacts,
-            RunMessage::WallWear(wear) if self.cell.is_none() => {
-                let wall = self.what.index(run)?;
-                let wanted = |row: &PartWear| self.what.takes(run, wall, row.part.0, &row.position);
-                self.parts.get_or_insert_default().add(&wear, wanted);
-                self.part_frames += 1;
-                return Ok(());
+        match message {
+            RunMessage::WallWear(wear) if self.cell.is_none() => self.add_sums(run, &wear),
+            // Of one frame, contacts come first; where sums follow them they are not needed.
+            RunMessage::Contacts(contacts) if self.sums.is_none() => {
+                self.contacts.add(run, &self.what, self.cell, self.from, &contacts)
             }
-            _ => return Ok(()),
-        };
-        // Of one frame, contacts come first; where sums follow them they are not needed.
-        if self.parts.is_some() {
-            return Ok(());
+            _ => Ok(()),
         }
-        self.contact_frames += 1;
-        if self.cell.is_none() && run.spheres.position.is_empty() {
-            return Ok(());
-        }
-        self.frames += 1;
-        let own: Vec<Contact> = self.what.of(run, &contacts)?.copied().collect();
-        own.iter().try_for_each(|contact| self.add(run, contacts.time, contact))?;
-        for b in self.by_sphere.values_mut().chain(self.by_cell.values_mut()) {
-            b.largest = b.largest.max(b.now);
-            b.now = 0.0;
-        }
-        Ok(())
     }
 
     fn end(&mut self, run: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        if let Some(parts) = &self.parts {
-            let wall = self.what.index(run)?;
-            rows.extend(parts.rows(run, &self.home, |own| wall.is_none_or(|wall| wall == own)));
-            return Ok(totals(rows).with("frames", "1", self.part_frames as f64).note(OF_EVERY_STEP));
+        self.life.as_ref().map_or(Ok(()), |life| life.check(run))?;
+        if let Some(sums) = self.sums.take() {
+            return self.end_of_sums(run, &sums, rows);
         }
-        match (self.contact_frames, self.frames) {
+        match (self.contacts.seen, self.contacts.frames) {
             (0, _) if self.cell.is_some() => return Err(NO_CONTACTS),
             (0, _) => return Err(NO_WEAR),
             (_, 0) => return Err(NO_SPHERES),
             _ => {}
         }
-        let side = self.cell.unwrap_or(f64::NAN);
-        let centre = |key: &[i64; 3]| Vec3::from(key.map(|k| (k as f64 + 0.5) * side));
-        rows.extend(self.by_cell.iter().map(|(key, b)| self.row(centre(key), side, side * side, b)));
-        let spheres = if self.cell.is_none() { &self.home[..] } else { &[] };
-        for (k, (position, radius)) in spheres.iter().enumerate() {
-            let load = self.by_sphere.get(&k).copied().unwrap_or_default();
-            // What a sphere stands for of a wall is not known here.
-            rows.push(self.row(*position, *radius, f64::NAN, &load));
+        let (length, life) = (self.contacts.length(), self.life.as_ref());
+        let mut parts = Vec::new();
+        match self.cell {
+            Some(side) => {
+                let (area, one) = (side * side, life.and_then(|life| life.of(run, None)));
+                for (key, borne) in self.contacts.cells() {
+                    let centre = Vec3::from(key.map(|k| (k as f64 + 0.5) * side));
+                    let worn = life.map(|life| life.worn(one, borne.work / area, length));
+                    let worn = &worn.unwrap_or_default()[..life.map_or(0, WearLife::columns)];
+                    let first = [centre.x, centre.y, centre.z, side];
+                    rows.push([&first[..], &borne.columns(area), worn].concat());
+                }
+            }
+            None => {
+                let spheres = self.spheres.take().unwrap_or_else(|| SphereParts::of(run));
+                parts = (0..spheres.wall.len())
+                    .map(|row| spheres.part(row, self.contacts.of_sphere(row)))
+                    .collect();
+                rows.extend(parts.iter().map(|part| part.row(run, life, length)));
+            }
         }
-        Ok(totals(rows).with("frames", "1", self.frames as f64).with(
+        let summary = self.totals(run, rows, &parts, length);
+        self.listed = (parts, rows.clone());
+        Ok(summary.with("frames", "1", self.contacts.frames as f64).with(
             "contacts_elsewhere",
             "1",
-            self.elsewhere as f64,
+            self.contacts.elsewhere as f64,
         ))
     }
 
     fn chart(&self, rows: &[Row]) -> Chart {
         map::chart(self.cell, rows)
     }
-}
 
-/// What all rows have together.
-fn totals(rows: &[Row]) -> Summary {
-    let work = || rows.iter().map(|r| r[7]);
-    Summary::default().with("places", "1", rows.len() as f64).with("sliding_work", "J", work().sum()).with(
-        "largest_work",
-        "J",
-        work().fold(0.0, f64::max),
-    )
+    fn geometry(&self) -> Result<Geometry, &'static str> {
+        let (parts, rows) = &self.listed;
+        match (self.cell, parts.is_empty()) {
+            (Some(_), _) => Err(
+                "cells of space have no geometry: leave --cell out (walls need [output] wear = true), or name the output .csv",
+            ),
+            (None, true) => {
+                Err("no wall has spheres or triangles: give a mesh or wall spheres, or --cell M and a .csv")
+            }
+            (None, false) => Ok(parts::geometry(parts, rows, &self.heads())),
+        }
+    }
 }
 
 impl Measure for Wear {
@@ -271,9 +287,10 @@ impl Measure for Wear {
         "Map of force and sliding work on walls in SHAPE: by wall sphere and triangle, or by --cell";
     const ARGUMENT: ArgumentKind = ArgumentKind::Shape;
     const FRAMES: Frames = Frames::OverTime;
-    const OPTIONS: &'static [&'static str] = &["cell", "wall"];
+    const OPTIONS: &'static [&'static str] = &["cell", "wall", "wear-coefficient", "thickness"];
 
     fn observer(asked: &Asked) -> Result<Box<dyn Observer>, AskError> {
-        Ok(Box::new(Wear::new(WallContactFilter::asked_for(asked)?, asked.cell)?))
+        let wear = Wear::new(WallContactFilter::asked_for(asked)?, asked.cell)?;
+        Ok(Box::new(Wear { life: WearLife::asked_for(asked)?, from: asked.between.0, ..wear }))
     }
 }

@@ -16,9 +16,29 @@ const MANY: usize = 500;
 
 /// The sheet of a mesh.
 pub fn sheet<'a>(surface: &'a WallSurface, mesh: &TriMesh) -> Sheet<'a> {
+    let parts = kept(mesh);
     let mesh = mesh.welded();
+    debug_assert_eq!(parts.len(), mesh.faces.len());
     let (lines, closed) = edges(&mesh);
-    Sheet { surface, vertices: mesh.vertices, faces: mesh.faces, lines, ink: 0.65, closed, whole: true }
+    Sheet {
+        surface,
+        vertices: mesh.vertices,
+        faces: mesh.faces,
+        parts,
+        lines,
+        ink: 0.65,
+        closed,
+        whole: true,
+    }
+}
+
+/// Numbers of the faces that welding keeps: those with three different corners.
+fn kept(mesh: &TriMesh) -> Vec<u32> {
+    let whole = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|v| mesh.vertices[v as usize]);
+        a != b && b != c && c != a
+    };
+    mesh.faces.iter().zip(0..).filter(|(face, _)| whole(face)).map(|(_, number)| number).collect()
 }
 
 /// Edges of one face, of more than two, or between two faces that bend; and whether all edges are of two faces.
@@ -46,6 +66,15 @@ fn edges(mesh: &TriMesh) -> (Vec<[Vec3; 2]>, bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The part of a run is the number of a face in its file, also where some faces have no area.
+    #[test]
+    fn faces_that_welding_drops_do_not_shift_the_numbers_of_others() {
+        let at = |x: f64, y: f64| Vec3::new(x, y, 0.0);
+        let vertices = vec![at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0), at(-0.0, 0.0), at(1.0, 1.0)];
+        let mesh = TriMesh { vertices, faces: vec![[0, 1, 2], [0, 3, 1], [1, 4, 2]] };
+        assert_eq!((kept(&mesh), mesh.welded().faces.len()), (vec![0, 2], 2));
+    }
 
     #[test]
     fn of_a_folded_square_the_fold_and_the_rim_are_drawn_and_the_diagonals_are_not() {

@@ -15,6 +15,8 @@ pub(crate) struct Sheet<'a> {
     pub vertices: Vec<Vec3>,
     /// Three corners each.
     pub faces: Vec<[u32; 3]>,
+    /// Of a mesh: the number of each face in the run, which may hold others, without area.
+    pub parts: Vec<u32>,
     /// Ends of straight lines [m]: edges of a mesh, the grid of a plane.
     pub lines: Vec<[Vec3; 2]>,
     /// How much a line hides [–]: edges are the shape of a mesh, a grid only lies on its plane.

@@ -46,7 +46,7 @@ pub fn sheet<'a>(surface: &'a WallSurface, plane: &Plane, extent: [Range; 3], be
     let faces = (2..polygon.len() as u32).map(|n| [0, n - 1, n]).collect();
     let centre = Vec3::from_fn(|k, _| 0.5 * (extent[k].lo + extent[k].hi));
     let whole = corners.is_empty() || plane.signed_distance(&centre).abs() < 2.0 * size;
-    Sheet { surface, vertices: polygon, faces, lines, ink: 0.3, closed: false, whole }
+    Sheet { surface, vertices: polygon, faces, parts: Vec::new(), lines, ink: 0.3, closed: false, whole }
 }
 
 fn corner(of: [Range; 3], n: usize) -> Vec3 {

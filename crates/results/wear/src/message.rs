@@ -1,19 +1,22 @@
-//! What grains did to the spheres and triangles of walls since the frame before (topic `/wall_wear`).
+//! A message of `/wall_wear`: what grains did to parts of walls since the frame before.
 
-use super::table::Columns;
-use crate::MeasureError;
+use crate::Part;
 use geom::Vec3;
 use record::column::{
     IMPACT_ENERGY, IMPACTS, INTERVAL, LARGEST_NORMAL, NORMAL_IMPULSE, PART, POSITION, WALL, WORK,
 };
 use record::topic::WALL_WEAR;
+use record::{Columns, RecordError};
 use stream::Table;
+
+/// Largest index of a wall or part: tables hold whole numbers of 32 bits.
+const MOST: f64 = u32::MAX as f64;
 
 /// What grains did to a sphere or a triangle of a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartWear {
-    /// Index of the wall, and number of the part in it.
-    pub part: (u64, u64),
+    /// Which one.
+    pub part: Part,
     /// Where it is at the end of the interval [m].
     pub position: Vec3,
     /// Time integral of the normal force [N·s].
@@ -40,26 +43,25 @@ pub struct WallWear {
 }
 
 impl WallWear {
-    /// From the table of a message.
+    /// From the table of a message at a time [s].
     ///
     /// # Errors
-    /// Columns that are missing, numbers that are not finite.
-    pub fn new(time: f64, table: &Table) -> Result<WallWear, MeasureError> {
-        let columns = Columns { topic: WALL_WEAR, time, table };
-        let (wall, part) = (columns.whole(WALL)?, columns.whole(PART)?);
+    /// Columns that are missing, numbers that are not finite, indices that are not whole.
+    pub fn new(time: f64, table: &Table) -> Result<WallWear, RecordError> {
+        let columns = Columns { name: WALL_WEAR, table };
+        let (wall, part) = (columns.needed(WALL, MOST)?, columns.needed(PART, MOST)?);
+        let impacts = columns.needed(IMPACTS, MOST)?;
         let (position, interval) = (columns.vectors(POSITION)?, columns.numbers(INTERVAL)?);
-        let [normal, largest, work, head_on, along] =
-            [NORMAL_IMPULSE, LARGEST_NORMAL, WORK, IMPACT_ENERGY[0], IMPACT_ENERGY[1]]
-                .map(|name| columns.numbers(name));
-        let (normal, largest, work, head_on, along) = (normal?, largest?, work?, head_on?, along?);
-        let impacts = columns.whole(IMPACTS)?;
+        let number = |name| columns.numbers(name);
+        let (normal, largest, work) = (number(NORMAL_IMPULSE)?, number(LARGEST_NORMAL)?, number(WORK)?);
+        let (head_on, along) = (number(IMPACT_ENERGY[0])?, number(IMPACT_ENERGY[1])?);
         let row = |k: usize| PartWear {
-            part: (wall[k], part[k]),
+            part: (u64::from(wall[k]), u64::from(part[k])),
             position: position[k],
             normal_impulse: normal[k],
             largest_normal: largest[k],
             work: work[k],
-            impacts: impacts[k],
+            impacts: u64::from(impacts[k]),
             impact_energy: [head_on[k], along[k]],
         };
         let rows = (0..wall.len()).map(row).collect();

@@ -1,0 +1,2 @@
+const int wornMode = 0;
+vec3 wornColour(float s) { return vec3(s); }
