@@ -16,7 +16,12 @@ pub fn record(
 ) -> ContactRecord {
     let (p, i) = (&state.particles, lists.slots.i[slot] as usize);
     let (centre, mine) = (where_it_was(state, i), p.rows[i].radius());
-    let (other, radius) = lists.partner(p, segment, slot, |k| where_it_was(state, k));
+    let (mut other, radius) = lists.partner(p, segment, slot, |k| where_it_was(state, k));
+    if segment.with == With::Images {
+        // Its row is that of the last forces, and particles may have moved since.
+        let of = lists.slots.partner[slot] as usize;
+        other = where_it_was(state, of) + state.cell(model).shift(&lists.slots.image[slot]);
+    }
     // A mesh that the particle has left since has no point that is nearest to it: the record has the particle's centre.
     let gone = other.x.abs() >= FAR[0][0] || state.zones.is_gone(i);
     let apart = if gone { Vec3::zeros() } else { centre - other };
