@@ -49,6 +49,28 @@ fn refused(folder: &TempDir, options: &[&str], code: i32) -> String {
     done.stderr
 }
 
+/// Without a reference the other runs tell nothing: it is run first, and alone where it fails.
+#[test]
+fn a_reference_that_cannot_be_run_ends_the_study_at_once() {
+    let folder = with(&dropped());
+    let vary = [
+        "--vary",
+        "stiffness=1,0.001",
+        "--vary",
+        "safety=0.4,0.8",
+        "--reference",
+        "stiffness=0.001",
+        "--reference",
+        "safety=0.4",
+    ];
+    let said = refused(&folder, &[&vary[..], &["--measure", "restitution", "--dir", "study"]].concat(), 1);
+    assert!(said.contains("the reference cannot be run"), "{said}");
+    let made = fs::read_dir(folder.path().join("study")).unwrap().filter_map(Result::ok);
+    let made: Vec<_> =
+        made.filter(|run| run.path().join("made").exists()).map(|run| run.file_name()).collect();
+    assert_eq!(made.len(), 1, "{made:?}");
+}
+
 /// Cells of a column of the CSV; cells in quotes stay whole.
 fn column(done: &Done, name: &str) -> Vec<String> {
     let text = String::from_utf8_lossy(&done.stdout).into_owned();

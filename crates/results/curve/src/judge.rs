@@ -3,10 +3,11 @@
 use crate::study::{CurveError, Study, Wanted, Work};
 use crate::sweep::Sweep;
 use crate::sweep::measure::Measure;
-use crate::sweep::script::Counter;
+use crate::sweep::script::{Counter, SweepRun};
 use crate::sweep::work::{self, Made};
 use crate::{Choice, Error, MeasuredRun, Point, Repeats, Truth, errors, front, percent, recommend, sentence};
 use crate::{amount, change, order, share_of_time};
+use measure::statistics::student;
 
 /// Times of a point.
 #[derive(Debug, Clone, Copy, Default)]
@@ -131,6 +132,26 @@ fn measured(
     Ok(Measured { points, costs: all.iter().map(|runs| median(runs)).collect(), unit })
 }
 
+/// The first run of the reference, without which the others tell nothing; `None` without a reference.
+pub fn first_of_reference(sweep: &Sweep) -> Option<&SweepRun> {
+    let reference = sweep.grid.reference?;
+    sweep.jobs.iter().find(|job| job.setting == reference)
+}
+
+/// Refuses a reference whose first run, which is made, failed.
+///
+/// # Errors
+/// It was refused or stopped by a guard; it left nothing.
+pub fn check_reference(work: Work, sweep: &Sweep, counter: Option<Counter>) -> Result<(), CurveError> {
+    let Some(job) = first_of_reference(sweep) else { return Ok(()) };
+    match work::read(job, work, counter)? {
+        Made::Done { .. } => Ok(()),
+        Made::Failed(why) => Err(CurveError::Failed(format!("{}: {why}", job.name)).at(NO_REFERENCE)),
+    }
+}
+
+const NO_REFERENCE: &str = "the reference cannot be run: give another --reference";
+
 /// Refuses a reference that failed, and a study in which all failed.
 fn check_failed(points: &[Point], reference: Option<usize>) -> Result<(), CurveError> {
     let why = |k: usize| {
@@ -138,7 +159,7 @@ fn check_failed(points: &[Point], reference: Option<usize>) -> Result<(), CurveE
         Some(CurveError::Failed(format!("{}: {why}", points[k].name())))
     };
     if let Some(error) = reference.and_then(why) {
-        return Err(error.at("the reference cannot be run: give another --reference"));
+        return Err(error.at(NO_REFERENCE));
     }
     if points.iter().all(|p| p.failed.is_some()) {
         let error = why(0).unwrap_or_else(|| CurveError::Failed("nothing to run".to_owned()));
@@ -146,6 +167,32 @@ fn check_failed(points: &[Point], reference: Option<usize>) -> Result<(), CurveE
     }
     Ok(())
 }
+
+/// Seeds with which an error that may be chance is known to be good enough; `None` where it is too large beyond chance, or chance is not known.
+///
+/// The half width of n seeds is t s/√n, with Student's t of n − 1 degrees of freedom. What is within chance shrinks with it; of any other error the size stays.
+fn seeds_to_tell(error: &Error, seeds: usize, wanted: f64) -> Option<usize> {
+    let chance = error.within_chance();
+    let (spread, room) = if chance { (error.upper(), wanted) } else { (error.interval, wanted - error.size) };
+    if seeds < 2 || !(error.interval > 0.0) || !(room > 0.0) || error.upper() <= wanted {
+        return None;
+    }
+    let width = |n: usize| student(n - 1) / (n as f64).sqrt();
+    let limit = width(seeds) * room / spread;
+    // Between one that is too few and one that is enough.
+    let (mut few, mut enough) = (seeds, 2 * seeds);
+    while width(enough) > limit && enough < MOST_SEEDS {
+        (few, enough) = (enough, 2 * enough);
+    }
+    while enough - few > 1 {
+        let middle = few + (enough - few) / 2;
+        *(if width(middle) > limit { &mut few } else { &mut enough }) = middle;
+    }
+    (enough < MOST_SEEDS).then_some(enough)
+}
+
+/// Nobody runs more.
+const MOST_SEEDS: usize = 100_000;
 
 fn median(runs: &[Cost]) -> Cost {
     let of = |get: fn(&Cost) -> f64| {
@@ -221,6 +268,23 @@ impl Judged {
         }
     }
 
+    /// What to do where chance hides whether a setting is good enough: how many seeds would tell, of the setting that needs the fewest.
+    fn seeds_needed(&self) -> Option<String> {
+        let of = |k: usize| {
+            let (error, seeds) = (self.errors[k]?, self.points[k].samples.len());
+            Some((seeds, error, seeds_to_tell(&error, seeds, self.wanted.0)?))
+        };
+        if self.phases > 1 {
+            return None;
+        }
+        let others = (0..self.points.len()).filter(|k| self.marks.0 != Some(*k));
+        let (seeds, error, needed) = others.filter_map(of).min_by_key(|(.., needed)| *needed)?;
+        let (interval, wanted) = (self.size(error.interval), self.size(self.wanted.0));
+        Some(format!(
+            "with {seeds} seeds the error is known to ± {interval}, which is too wide to tell {wanted}: about {needed} seeds would tell (--repeat)"
+        ))
+    }
+
     /// The recommended setting.
     pub fn advice(&self) -> Option<String> {
         let (wanted, of) = (self.size(self.wanted.0), self.of);
@@ -237,16 +301,50 @@ impl Judged {
                 format!("Recommended, the least {of} {within}: {}{time}", self.points[k].name())
             }
             Choice::OnlyReference(k) => {
-                format!(
-                    "None but the reference ({}) is {within}: try settings between",
-                    self.points[k].name()
-                )
+                let cure = self.seeds_needed().unwrap_or_else(|| "try settings between".to_owned());
+                format!("None but the reference ({}) is {within}: {cure}", self.points[k].name())
             }
             Choice::None(Some(k)) => {
                 let upper = self.errors[k].map_or(f64::NAN, |e| e.upper());
-                format!("None is {within}; nearest is {} with {}", self.points[k].name(), self.size(upper))
+                let cure = self.seeds_needed().map_or(String::new(), |cure| format!(": {cure}"));
+                format!(
+                    "None is {within}; nearest is {} with {}{cure}",
+                    self.points[k].name(),
+                    self.size(upper)
+                )
             }
             Choice::None(None) => format!("None is {within}"),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seeds(size: f64, interval: f64, seeds: usize, wanted: f64) -> Option<usize> {
+        seeds_to_tell(&Error { size, interval, relative: true }, seeds, wanted)
+    }
+
+    #[test]
+    fn so_many_seeds_make_the_interval_narrow_enough() {
+        let width = |n: usize| student(n - 1) / (n as f64).sqrt();
+        for (size, interval, n, wanted) in [
+            (0.000_92, 0.0086, 3, 0.0005),
+            (0.05, 0.066, 8, 0.1),
+            (0.04, 0.02, 3, 0.05),
+            (0.04, 0.039, 2, 0.05),
+        ] {
+            let needed = seeds(size, interval, n, wanted).expect("too wide");
+            let (spread, room) =
+                if interval >= size { (size + interval, wanted) } else { (interval, wanted - size) };
+            let of = |seeds: usize| spread * width(seeds) / width(n);
+            assert!(needed > n && of(needed) <= room && of(needed - 1) > room, "{needed} seeds for {size}");
+        }
+        assert_eq!(seeds(0.05, 0.066, 8, 0.1), Some(10));
+        // Good enough, too large beyond chance, or chance not known.
+        assert_eq!(seeds(0.01, 0.01, 3, 0.05), None);
+        assert_eq!(seeds(0.2, 0.1, 3, 0.05), None);
+        assert_eq!(seeds(0.2, f64::NAN, 1, 0.05), None);
     }
 }

@@ -19,7 +19,7 @@ mod words;
 
 pub use error::{Norm, Repeats, Truth, errors};
 pub use front::{Choice, front, recommend};
-pub use judge::{Cost, Judged, judge};
+pub use judge::{Cost, Judged, check_reference, first_of_reference, judge};
 pub use point::{Error, MeasuredRun, Point};
 pub use study::{CurveError, PHASES, Study, TrueValue, Wanted, Work};
 pub use table::csv;

@@ -7,9 +7,10 @@ mod report;
 use anyhow::Context;
 use args::Args;
 use cli::{Output, OutputStream, Progress, Report};
+use curve::sweep::script::{Counter, SweepRun};
 use curve::sweep::work::Open;
-use curve::sweep::{Sweep, measure::Measure, script::Counter, work};
-use curve::{CurveError, Judged, Study, Work, csv, judge};
+use curve::sweep::{Sweep, measure::Measure, work};
+use curve::{CurveError, Judged, Study, Work, check_reference, csv, first_of_reference, judge};
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
@@ -55,7 +56,7 @@ fn cost_curve(args: Args) -> anyhow::Result<Report> {
             geom::counted(kept, "run")
         )));
     }
-    run(&args, &study, &open)?;
+    run(&args, &study, (&sweep, &open), counter)?;
     for (text, count) in work::warnings(&sweep.jobs) {
         cli::warn(&format!("{} of {runs} warned: {text}", geom::counted(count, "run")));
     }
@@ -86,15 +87,29 @@ fn lay_out(study: &Study) -> anyhow::Result<Sweep> {
     Ok(sweep)
 }
 
-fn run(args: &Args, study: &Study, open: &Open) -> anyhow::Result<()> {
+fn run(
+    args: &Args,
+    study: &Study,
+    (sweep, open): (&Sweep, &Open),
+    counter: Option<Counter>,
+) -> anyhow::Result<()> {
     let jobs = args.jobs.get();
     if jobs > 1 && study.work == Work::Seconds && !open.jobs.is_empty() {
         cli::warn(&format!("--jobs {jobs}: runs at the same time disturb each other's times"));
     }
     cli::stop_in_order();
     let progress = Progress::new("runs", open.jobs.len() as u64);
-    let begins = |job: &curve::sweep::script::SweepRun| progress.say(job.name.clone());
-    work::run(&open.jobs, jobs, cli::stop_requested, &begins, &|| progress.add(1)).map_err(refused)
+    let begins = |job: &SweepRun| progress.say(job.name.clone());
+    let run = |some: &[&SweepRun]| {
+        work::run(some, jobs, cli::stop_requested, &begins, &|| progress.add(1)).map_err(refused)
+    };
+    // Without the reference all others tell nothing: it is run first.
+    let first = first_of_reference(sweep).map(|job| &job.folder);
+    let (first, others): (Vec<&SweepRun>, Vec<&SweepRun>) =
+        open.jobs.iter().partition(|job| Some(&job.folder) == first);
+    run(&first)?;
+    check_reference(study.work, sweep, counter).map_err(refused)?;
+    run(&others)
 }
 
 /// Writes the table, the plot and the sentences.
