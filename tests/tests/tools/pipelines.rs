@@ -288,3 +288,27 @@ fn a_pipeline_does_not_take_a_stopped_run_as_made() {
     let refused = run("--set no.such=key");
     assert!(refused.code == 0 && refused.stderr.is_empty(), "made once: {}", refused.stderr);
 }
+
+/// A change downstream leaves the upstream stage as it is, with its time: make runs nothing again that depends on it.
+#[test]
+fn a_stage_that_has_not_changed_keeps_its_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let (plant, up) = (folder.path().join("plant.toml"), folder.path().join("up.toml"));
+    let floor = "[[wall]]\nname = \"floor\"\nsolid = \"box:-1,-1,-2,1,1,-1.9\"\nmaterial = \"MATERIAL\"\n";
+    let name = LONG.split_once("name = \"").and_then(|(_, rest)| rest.split('"').next()).unwrap();
+    let floor = floor.replace("MATERIAL", name);
+    let split = || {
+        let cut = ["plant.toml", "--at", "0,0,0,0,0,-1", "--keep", "upstream", "-o", "up.toml"];
+        let done = succeed(folder.path(), "stage-split", &cut);
+        (fs::metadata(&up).unwrap().modified().unwrap(), fs::read(&up).unwrap(), done.stderr)
+    };
+    fs::write(&plant, format!("{LONG}{floor}")).unwrap();
+    let (first, text, said) = split();
+    assert!(!said.contains("holds this stage already"), "{said}");
+    fs::write(&plant, format!("{LONG}{}", floor.replace("-1.9", "-1.8"))).unwrap();
+    let (second, again, said) = split();
+    assert!(first == second && text == again && said.contains("up.toml holds this stage already"), "{said}");
+    fs::write(&plant, format!("{LONG}{floor}").replacen("until = ", "until = 1", 1)).unwrap();
+    let (third, other, _) = split();
+    assert!(third > second && other != text, "a stage that has changed is written");
+}

@@ -55,6 +55,15 @@ impl Output {
         self.path().map_or_else(|| "stdout".to_owned(), |path| path.display().to_string())
     }
 
+    /// Whether the file holds exactly these bytes: then it can stay, with its time, and make runs nothing again that depends on it.
+    pub fn holds(&self, bytes: &[u8]) -> bool {
+        let same = |path: &Path| {
+            let found = fs::metadata(path).ok()?;
+            Some(found.is_file() && found.len() == bytes.len() as u64 && fs::read(path).ok()? == bytes)
+        };
+        self.path().and_then(same).unwrap_or(false)
+    }
+
     /// Opens a binary stream. What is written to a file is lost unless [`OutputStream::commit`] is called.
     ///
     /// # Errors

@@ -20,9 +20,18 @@ fn stage_split(args: Args) -> anyhow::Result<Report> {
     let scene = Scene::new(&args.scene.to_string(), args.scene.read_text()?, &[], &folder)?;
     cli::also_reads(scene.files())?;
     let (text, gone) = split(&scene, &args.cut())?;
-    let mut out = args.output.open_text()?;
-    out.write_all(text.as_bytes()).context("cannot write the scene")?;
-    out.commit()?;
+    let unchanged = args.output.holds(text.as_bytes());
+    if !unchanged {
+        let mut out = args.output.open_text()?;
+        out.write_all(text.as_bytes()).context("cannot write the scene")?;
+        out.commit()?;
+    }
     let left_out = if gone.is_empty() { "nothing".to_owned() } else { gone.join(", ") };
-    Ok(Report::new(format!("left out: {left_out}")).with("left_out", gone))
+    let kept = if unchanged {
+        format!("; {} holds this stage already and was not written again", args.output.name())
+    } else {
+        String::new()
+    };
+    let report = Report::new(format!("left out: {left_out}{kept}"));
+    Ok(report.with("left_out", gone).with("unchanged", unchanged))
 }
