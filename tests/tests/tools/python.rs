@@ -1,7 +1,8 @@
 //! A run in Python, by the lines of the documentation; files for ParaView, read by VTK itself.
 
+use grainpipe_tests::skip;
+use grainpipe_tests::tools::{program, succeed};
 use grainpipe_tests::tree::root;
-use grainpipe_tests::{skip, tools::succeed};
 use std::{
     fs,
     path::Path,
@@ -53,7 +54,11 @@ fn run() -> TempDir {
 }
 
 fn python(folder: &Path, script: &str) -> Option<Output> {
+    let tools = program("dem-run").parent().expect("a folder").to_owned();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths([tools].into_iter().chain(std::env::split_paths(&path))).expect("a path");
     let mut command = Command::new("python3");
+    command.env("PATH", path).env("PYTHONPATH", root().join("python")).env("PYTHONDONTWRITEBYTECODE", "1");
     command.current_dir(folder).args(["-c", script]).output().ok()
 }
 
@@ -69,23 +74,92 @@ fn said(folder: &Path, modules: &str, script: &str) -> Option<String> {
     Some(String::from_utf8_lossy(&done.stdout).into_owned())
 }
 
-/// The Python lines of the documentation.
-fn documented() -> String {
+/// The Python lines of the documentation: those of the package, or the others.
+fn documented(package: bool) -> String {
     let path = root().join("docs/how-to/python.md");
     let text = fs::read_to_string(path).unwrap();
     let blocks = text.split("```python\n").skip(1).filter_map(|rest| rest.split("```").next());
-    blocks.collect::<Vec<_>>().concat()
+    blocks.filter(|block| block.contains("import grainpipe") == package).collect::<Vec<_>>().concat()
 }
 
 /// z = z₀ − g t²/2 = 0.95 m after 0.1 s, and the speed √(0.5² + 1²) m/s.
 #[test]
 fn the_lines_of_the_documentation_reach_the_grains() {
     let folder = run();
-    let Some(said) = said(folder.path(), "mcap, mcap_protobuf, numpy", &documented()) else { return };
+    let Some(said) = said(folder.path(), "mcap, mcap_protobuf, numpy", &documented(false)) else { return };
     let lines: Vec<&str> = said.lines().collect();
     assert_eq!(lines.len(), 3, "{said}");
     assert!(lines[0].starts_with("t = 0.000 s: 2 grains, fastest 0.5000 m/s, lowest 1.000000 m"), "{said}");
     assert!(lines[2].starts_with("t = 0.100 s: 2 grains, fastest 1.1180 m/s, lowest 0.950000 m"), "{said}");
+}
+
+/// After 0.5 s one has fallen from 1 m onto the floor and bounced as its restitution says: z = r + v t − g t²/2.
+#[test]
+fn the_lines_of_the_package_read_and_make_runs() {
+    let folder = run();
+    let stiff = SCENE.replace("dt = 1e-4\n", "").replace("1e7", "1e8");
+    fs::write(folder.path().join("two.toml"), stiff).unwrap();
+    let Some(said) = said(folder.path(), "mcap, numpy, grainpipe", &documented(true)) else { return };
+    let lines: Vec<&str> = said.lines().collect();
+    assert_eq!(lines.len(), 5, "{said}");
+    assert_eq!(lines[0], "t = 0.000 s: 2 grains, fastest 0.5000 m/s", "{said}");
+    assert_eq!(lines[2], "t = 0.100 s: 2 grains, fastest 1.1180 m/s", "{said}");
+    for (line, restitution) in lines[3..].iter().zip([0.2, 0.9_f64]) {
+        assert!(line.starts_with(&format!("restitution {restitution}: grains at ")), "{said}");
+        let number = |text: &str| text.trim().trim_end_matches(" m").parse::<f64>().expect("a number");
+        let (_, found) = line.split_once(" grains at ").expect("heights");
+        let (low, high) = found.split_once(" and ").expect("two");
+        // z = 0.75 m of the one that has not landed.
+        assert!((number(high) - 0.75).abs() < 2e-3 || (number(low) - 0.75).abs() < 2e-3, "{said}");
+    }
+}
+
+const PACKAGE: &str = r#"
+import grainpipe, numpy
+run = grainpipe.run("two.toml", {"output.energy": True, "output.contacts": True, "output.wear": True, "time.until": 1.0, "time.dt": 2e-5, "contact.0.restitution": 0.3, "particles.0.source": "low.csv"}, output="more.mcap")
+assert run.is_complete and run.stopped is None and run.materials[0]["name"] == "glass" and "two.csv" not in run.scene
+every = run.table()
+assert len(every) == sum(len(rows) for _, rows in run.frames()) == 2 * len(run.times()), len(every)
+assert (every["time"][::2] == run.times()).all() and every.dtype.names[:4] == ("time", "x", "y", "z")
+energy, floor = run.energy(), run.wall_forces("floor")
+assert abs(energy["balance"] - energy["balance"][0]).max() < 1e-3 * energy["balance"][0], energy["balance"]
+assert abs(floor["interval"].sum() - run.times()[-1]) < 1e-8 and numpy.isnan(floor["mean_force"][0]).all()
+impulse = (floor["mean_force"] * floor["interval"][:, None])[1:].sum(axis=0)
+grains = lambda k: run.at(run.times()[k])
+momentum = lambda rows: sum(r["radius"] ** 3 * 4 / 3 * numpy.pi * 2500 * r["vz"] for r in rows)
+weight = -10 * run.times()[-1] * sum(r["radius"] ** 3 * 4 / 3 * numpy.pi * 2500 for r in grains(0))
+assert abs(momentum(grains(-1)) - momentum(grains(0)) - weight + impulse[2]) < 1e-9, impulse
+assert len(run.table("/contacts")) > 0 and run.at(0.0, "/contacts").size == 0
+names = [surface.name for surface in run.surfaces()]
+assert names == ["floor", "bin"] and run.surfaces()[1].faces.shape == (1, 3) and run.surfaces()[0].plane.shape == (2, 3)
+whole = open("more.mcap", "rb").read()
+open("cut.mcap", "wb").write(whole[: len(whole) // 2])
+cut = grainpipe.Run("cut.mcap")
+assert not cut.is_complete and 0 < len(cut.times()) < len(run.times())
+for call, error in [
+    (lambda: grainpipe.Run("two.toml"), ValueError),
+    (lambda: grainpipe.Run("cut.mcap", complete=True), grainpipe.IncompleteError),
+    (lambda: run.wall_forces("lid"), KeyError),
+    (lambda: run.table("/nothing"), KeyError),
+    (lambda: run.table("/energy"), TypeError),
+    (lambda: grainpipe.run("two.toml", {"time.untl": 1}, output="no.mcap"), grainpipe.RunError),
+]:
+    try:
+        call()
+        raise SystemExit(f"no {error}")
+    except error as found:
+        assert len(str(found)) > 10, found
+stopped = grainpipe.run("two.toml", {"guards.overlap": 1e-6, "time.dt": 2e-5, "time.until": 1.0, "particles.0.source": "low.csv"}, output="stop.mcap")
+assert stopped.stopped["stop"] == {"by": "guard", "guard": "overlap"}, stopped.stopped
+print("done")
+"#;
+
+#[test]
+fn the_package_gives_what_the_run_has() {
+    let folder = run();
+    fs::write(folder.path().join("low.csv"), "x,y,z,radius,vx\n0,0,0.3,0.01,0.5\n0,1,0.4,0.02,0\n").unwrap();
+    let Some(said) = said(folder.path(), "mcap, numpy, grainpipe", PACKAGE) else { return };
+    assert_eq!(said.trim(), "done");
 }
 
 const MOMENT: &str = r#"

@@ -191,7 +191,7 @@ fn seeds_to_tell(error: &Error, seeds: usize, wanted: f64) -> Option<usize> {
     (enough < MOST_SEEDS).then_some(enough)
 }
 
-/// Nobody runs more.
+/// More are out of reach.
 const MOST_SEEDS: usize = 100_000;
 
 fn median(runs: &[Cost]) -> Cost {
