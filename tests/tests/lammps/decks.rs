@@ -111,6 +111,15 @@ fn everything_that_lammps_lacks_is_refused_by_name() {
         (
             &[
                 "--set",
+                "insert=[{ material = \"glass\", shape = \"box:0,0,1,0.1,0.1,1.1\", diameter = 0.006, velocity = [0,0,-1], \
+                 rate_count = 10, when_blocked = \"skip\" }]",
+            ],
+            "insert.when_blocked",
+            "keep the shape free",
+        ),
+        (
+            &[
+                "--set",
                 "wall.0.motion={ swing = { about = [0,0,1], through = [0,0,0], amplitude = 0.1, frequency = 5 } }",
             ],
             "wall 'floor'",

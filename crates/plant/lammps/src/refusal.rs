@@ -6,7 +6,7 @@ use crate::clumps;
 use crate::error::{LammpsError, Refusal, Result};
 use crate::law::Target;
 use crate::outlet;
-use dem::setup::{Precision, Setup, WallShape, ZoneMotion};
+use dem::setup::{Precision, Setup, WallShape, WhenBlocked, ZoneMotion};
 use scene::keys::SceneKeys;
 use scene::{Plan, Scene};
 
@@ -76,6 +76,12 @@ fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
         ),
         (keys.time.until_unbalanced.is_some(), "time.until_unbalanced", ends, "leave it out"),
         (keys.time.until_kinetic.is_some(), "time.until_kinetic", ends, "leave it out"),
+        (
+            keys.insert.iter().any(|insert| insert.when_blocked != WhenBlocked::Wait),
+            "insert.when_blocked",
+            "LAMMPS does not look whether there is room for a grain",
+            "leave it out and keep the shape free, or use dem-run",
+        ),
     ])
 }
 
