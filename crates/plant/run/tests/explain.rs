@@ -184,3 +184,23 @@ fn bytes_of_a_contact_are_those_of_its_kind() {
     assert_eq!((one.listed, one.wrench, one.ledger), (8, 64, 0));
     assert_eq!(one, of("60"));
 }
+
+/// What accuracy costs, where every user meets it: at the step of an accuracy an impact is off by that, and another accuracy takes as many steps as its step is shorter.
+#[test]
+fn an_impact_is_off_by_the_accuracy_that_was_asked_for() {
+    let at = |set: &str| explained(SCENE, &[set]);
+    let asked = at("time.accuracy=\"1%\"");
+    let impact = asked.fields.impact_error.expect("measured");
+    assert!((impact.error - 0.01).abs() < 1e-6 && impact.law == "hertz", "{impact:?}");
+    let usual = at("time.safety=0.5");
+    assert!(usual.text.contains("impact         off by up to "), "{}", usual.text);
+    let times = asked.fields.steps as f64 / usual.fields.steps as f64;
+    let told = if times > 1.0 {
+        format!("1 % takes {times:.1} times the steps")
+    } else {
+        format!("1 % takes {:.0} % of the steps", 100.0 * times)
+    };
+    assert!(usual.text.contains(&told), "{told}: {}", usual.text);
+    let sampled = at("time.contacts=\"sampled\"").fields.impact_error.expect("measured");
+    assert!(sampled.error > 3.0 * usual.fields.impact_error.expect("measured").error, "{sampled:?}");
+}

@@ -19,7 +19,7 @@ use effects::{EffectToMeasure, effects};
 use geom::{Shown, counted};
 use scene::advice::explain_step_cause;
 use scene::keys::Insert;
-use scene::plan::Insertion;
+use scene::plan::{ImpactError, Insertion, impact_error};
 use scene::{Plan, Scene};
 use serde::Serialize;
 use stages::inlet::InletStream;
@@ -51,6 +51,8 @@ pub struct Fields {
     pub critical_dt: f64,
     /// Which measured curve the time step relies on, when the scene asks for an accuracy.
     pub chosen_by: Option<String>,
+    /// What an impact is off by at this step, where that was measured.
+    pub impact_error: Option<ImpactError>,
     /// The pair that limits it.
     pub limiting_pair: String,
     /// Critical step with half of `guards.overlap`, where that lengthens it [s].
@@ -180,6 +182,7 @@ pub fn explain(scene: &Scene, plan: Plan, measure: bool) -> Result<Explained> {
         dt,
         critical_dt: limit.dt,
         chosen_by,
+        impact_error: impact_error(&setup.contacts, scene.keys.time.contacts, dt / limit.dt),
         critical_dt_half_overlap,
         guard_overlap: setup.guards.overlap,
         critical_dt_elastic,

@@ -2,6 +2,7 @@
 
 use super::{Coming, Effect, Fields};
 use dem::{ContactBytes, MatchedDamping};
+use scene::plan::ImpactError;
 use std::fmt::{Display, Write};
 
 /// Shares below this are not distinguished from 0 [–].
@@ -18,6 +19,9 @@ pub(super) fn text(fields: &Fields) -> String {
     line(&mut out, "time step", format!("{dt:.4e} s, {share_of_critical}"));
     if let Some(chosen) = &fields.chosen_by {
         line(&mut out, "chosen by", chosen);
+    }
+    if let Some(impact) = &fields.impact_error {
+        line(&mut out, "impact", off_by(impact, dt / critical_dt));
     }
     line(&mut out, "limited by", &fields.limiting_pair);
     if let Some(dt) = fields.critical_dt_half_overlap {
@@ -59,6 +63,25 @@ pub(super) fn text(fields: &Fields) -> String {
     memory(&mut out, fields);
     fields.dropped.iter().for_each(|key| line(&mut out, "dropped", key));
     out
+}
+
+/// What an impact is off by, and what another accuracy costs.
+fn off_by(impact: &ImpactError, share: f64) -> String {
+    let ImpactError { law, error, at_most, within_percent } = *impact;
+    // Two digits that count.
+    let percent = |error: f64| geom::Shown(format!("{:.1e}", 100.0 * error).parse().unwrap_or(100.0 * error));
+    let less = if at_most { "less than " } else { "up to " };
+    let off = format!("off by {less}{} % in its restitution at this step (law \"{law}\")", percent(error));
+    let other = match within_percent {
+        None => "no step was measured to reach 1 %".to_owned(),
+        Some(safety) if safety < share => {
+            format!("1 % takes {:.1} times the steps (time.accuracy = \"1%\")", share / safety)
+        }
+        Some(safety) => {
+            format!("1 % takes {:.0} % of the steps (time.accuracy = \"1%\")", 100.0 * share / safety)
+        }
+    };
+    format!("{off}; {other}")
 }
 
 /// Whether a GPU computes it.

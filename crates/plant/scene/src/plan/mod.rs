@@ -18,7 +18,7 @@ mod zones;
 pub use builder::PlannedInlet;
 pub use grains::packing::bounds;
 pub use insertions::insertion::Insertion;
-pub use laws::accuracy::smallest_accuracies;
+pub use laws::accuracy::{ImpactError, impact_error, smallest_accuracies};
 pub use laws::contacts::{dropped, most_specific};
 pub use walls::below::Below;
 pub use walls::solids::wall as solid;

@@ -16,6 +16,7 @@ use crate::error::Result;
 use crate::keys::{Accuracy, ELASTIC, SAFETY, SAFETY_ELASTIC, Sampling, Time};
 use dem::effects::{Slot, active, by_modulus};
 use dem::setup::ContactLaw;
+use serde::Serialize;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -126,6 +127,52 @@ pub(in crate::plan) fn choose(
     Ok((safety, Some(format!("time.accuracy {wanted}: safety {shown}, {curve}"))))
 }
 
+/// What an impact is off by at a time step, by the measured curves.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ImpactError {
+    /// Normal law of the contacts that are off most.
+    pub law: &'static str,
+    /// Largest error of the restitution [–]; as an `accuracy`, which asks for the same step.
+    pub error: f64,
+    /// Whether the step is shorter than the shortest that was measured: `error` is then that of this one.
+    pub at_most: bool,
+    /// Share of the critical step within 1 % [–]; `None` where none was measured to reach that.
+    pub within_percent: Option<f64>,
+}
+
+/// What an impact is off by where the time step is a share of the critical step; `None` without contacts, for laws that were not measured, and for steps longer than any that
+/// was.
+pub fn impact_error(contacts: &[ContactLaw], sampling: Sampling, share: f64) -> Option<ImpactError> {
+    let mut worst: Option<ImpactError> = None;
+    for law in laws(contacts) {
+        let measured = curve(law, sampling);
+        let (error, at_most) = error_at(&measured, share)?;
+        let within_percent = safety(&measured, AIM * 0.01);
+        let found = ImpactError { law, error: error / AIM, at_most, within_percent };
+        worst = Some(worst.filter(|worst| worst.error >= found.error).unwrap_or(found));
+    }
+    worst
+}
+
+/// The error at a share of the critical step, and whether the share is below all that were measured; `None` above them.
+fn error_at(curve: &[Measured], share: f64) -> Option<(f64, bool)> {
+    let (first, last) = (curve.first()?, curve.last()?);
+    if share <= first.safety {
+        return Some((first.error, share < first.safety));
+    }
+    // Rounded by what a number in a scene has for digits.
+    if share > last.safety * (1.0 + 1e-6) {
+        return None;
+    }
+    let after = curve.iter().position(|p| p.safety >= share).unwrap_or(curve.len() - 1);
+    let (a, b) = (curve[after - 1], curve[after]);
+    if !(a.error > 0.0) {
+        return Some((b.error, false));
+    }
+    let part = libm::log(share / a.safety) / libm::log(b.safety / a.safety);
+    Some((a.error * libm::exp(part * libm::log(b.error / a.error)), false))
+}
+
 /// The share of the critical step where a scene says nothing, and why where it is not the usual one.
 ///
 /// Without friction a contact of a linear law lasts six steps at the usual share. Where it is sampled, its force begins with a jump of one step's
@@ -194,6 +241,27 @@ mod tests {
             // The same hundredth takes at least three times fewer steps.
             let [before, after] = [sampled, averaged].map(|c| safety(&c, 0.009).expect("measured"));
             assert!(after > 3.0 * before, "{law}: {before}, {after}");
+        }
+    }
+
+    #[test]
+    fn the_error_at_the_step_of_an_accuracy_is_that_accuracy() {
+        for law in ["hooke", "hertz", "jkr"] {
+            for sampling in [Sampling::Sampled, Sampling::Averaged] {
+                let curve = curve(law, sampling);
+                let (least, most) = (curve[0].error / AIM, curve[curve.len() - 1].error / AIM);
+                for part in [0.1, 0.5, 0.9] {
+                    let wanted = least * libm::pow(most / least, part);
+                    let share = safety(&curve, AIM * wanted).expect("measured");
+                    let (error, at_most) = error_at(&curve, share).expect("measured");
+                    // Where an error does not grow with the step, the longest such step is taken.
+                    assert!(!at_most && error <= AIM * wanted * (1.0 + 1e-9), "{law}: {error}, {wanted}");
+                    let next = error_at(&curve, 1.01 * share).map_or(f64::INFINITY, |e| e.0);
+                    assert!(next > AIM * wanted, "{law}: {next}, {wanted}");
+                }
+                assert!(error_at(&curve, 0.5 * curve[0].safety).expect("short").1, "{law}");
+                assert_eq!(error_at(&curve, 1.1 * curve[curve.len() - 1].safety), None, "{law}");
+            }
         }
     }
 }
