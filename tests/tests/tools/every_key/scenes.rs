@@ -146,6 +146,7 @@ rate_count = 2000
 count = 2
 until = 0.001
 repeat = 0.002
+when_blocked = "wait"
 [[wall]]
 box = [0, 0, -1, 1, 1, 2]
 faces = ["x-", "x+", "y-", "y+"]
@@ -266,6 +267,7 @@ scale = 1.1
 shape = "box:0.3,0.3,0.5,0.5,0.5,0.54"
 velocity = [0, 0, -1]
 rate = 0.1
+when_blocked = "stop"
 [[insert]]
 clump = "twin"
 scale = [0.9, 1.1]

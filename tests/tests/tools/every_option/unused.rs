@@ -79,7 +79,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("dem-measure run.mcap --fragments --from 0", "--from: --fragments lists the pieces of one frame"),
     (
         "stone-pack grains.csv library --content 0.2 --stone-density 2600 --soil-density 2600 --material stone -o s.ply",
-        "--material: changes nothing without --rigid or --report",
+        "--material: changes nothing without --scene, --rigid or --report",
     ),
     (
         "lab-test uniaxial stone.toml --seed 3",
