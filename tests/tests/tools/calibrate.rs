@@ -219,7 +219,11 @@ fn tests_with_the_same_command_share_its_runs() {
     fs::write(path.join("both.toml"), text.concat()).unwrap();
     succeed(path, "calibrate", &["both.toml", "-q", "--jobs", "2", "--dir", "trials", "-o", "found.csv"]);
     let trials = read(path, "trials/trials.csv").lines().count() - 1;
-    assert_eq!(read(path, "log").lines().count(), trials, "each trial ran its command once");
+    assert_eq!(
+        read(path, "log").lines().count(),
+        trials + 1,
+        "each trial ran its command once, and the best point"
+    );
     let found = read(path, "found.csv");
     let value = |name: &str| {
         let row = found.lines().find(|l| l.starts_with(&format!("{name},"))).unwrap();

@@ -4,7 +4,7 @@ use crate::checkpoint::Checkpoint;
 use scene::SceneError;
 use toml::{Table, Value};
 
-const CURE: &str = "resume with the scene and inputs of the saved run (only time.until, [guards], and every, checkpoint and precision of [output] may change)";
+const CURE: &str = "resume with the scene and inputs of the saved run (only time.until, [guards], when_blocked of [[insert]], and every, checkpoint and precision of [output] may change)";
 
 impl Checkpoint {
     /// Refuses another scene than the one that was saved; its end, its output and its guards may differ.
@@ -31,6 +31,10 @@ impl Checkpoint {
 fn fixed(text: &str) -> Value {
     let mut table: Table = toml::from_str(text).unwrap_or_default();
     table.remove("guards");
+    let insertions = table.get_mut("insert").and_then(Value::as_array_mut);
+    for insertion in insertions.into_iter().flatten().filter_map(Value::as_table_mut) {
+        insertion.remove("when_blocked");
+    }
     for (key, free) in [("time", &["until"][..]), ("output", &["every", "checkpoint", "precision"])] {
         let Some(inner) = table.get_mut(key).and_then(Value::as_table_mut) else { continue };
         free.iter().for_each(|k| drop(inner.remove(*k)));

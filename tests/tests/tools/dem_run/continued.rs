@@ -102,19 +102,22 @@ faces = ["x-", "x+", "y-", "y+", "z-"]
 material = "g"
 "#;
 
-/// What is said is about an insert, and the command goes on, with all that was written before.
+/// What is said is about an insert, and the command goes on, with all that was written before: what finds no room waits from then on.
 #[test]
-fn the_command_after_an_insert_on_top_of_a_grain_goes_past_it() {
+fn the_command_after_an_insert_without_room_goes_past_it() {
     let folder = with(PILED);
-    let said = tool(folder.path(), "dem-run", &["s.toml", "-q", "-o", "run.mcap"]);
+    let stop = "insert.0.when_blocked=stop";
+    let said = tool(folder.path(), "dem-run", &["s.toml", "-q", "--set", stop, "-o", "run.mcap"]);
     assert_eq!(said.code, 3, "{}", said.stderr);
-    for words in ["of 1.5 s", "comes in by insert 0", "insert.0.rate", "--set guards.overlap=0.5", "--whole"]
+    for words in
+        ["of 1.5 s", "insert 0 has no room", "insert.0.rate", "--set insert.0.when_blocked=wait", "--whole"]
     {
         assert!(said.stderr.contains(words), "{words}: {}", said.stderr);
     }
     assert!(!said.stderr.contains("inlet") && !said.stderr.contains("stage-replay"), "{}", said.stderr);
     let on = line(folder.path(), &printed(&said.stderr));
     assert!(on.code == 0 || time(&on.stderr) > time(&said.stderr), "{}", on.stderr);
+    assert!(!on.stderr.contains("has no room"), "{}", on.stderr);
     let frames = ["run.mcap", "run.2.mcap"].map(|name| frames(&folder.path().join(name)).len());
     assert!(frames[1] >= frames[0], "{frames:?}");
 }

@@ -1,7 +1,7 @@
 //! The command that continues a stopped run, as it can be typed.
 
 use cli::Output;
-use dem::Halt;
+use dem::{Entrance, Halt};
 use std::path::{Path, PathBuf};
 use stream::quoted;
 
@@ -61,6 +61,7 @@ pub fn wider(halt: &Halt) -> Vec<String> {
             share("motion", *found, *limit)
         }
         Halt::CameBack { .. } => Some("guards.zones=false".to_owned()),
+        Halt::NoRoom { by: Entrance::Insert(k), .. } => Some(format!("insert.{k}.when_blocked=wait")),
         Halt::Energy { made, of, limit, .. } if *of > 0.0 => {
             Some(format!("guards.energy={}", above(*limit, made / of))).filter(|_| made.is_finite())
         }

@@ -89,7 +89,10 @@ impl Simulation {
         let mut sim = Simulation::build(setup, Width::best(), Some(dt))?;
         saved.fits(&sim.state, &sim.model.setup)?;
         let Checkpoint { state, contacts: saved } = saved;
-        sim.state = state.into_owned();
+        let begun = std::mem::replace(&mut sim.state, state.into_owned());
+        // What becomes of particles without room may be another thing from now on.
+        let zones = sim.state.zones.inlets.iter_mut().zip(&begun.zones.inlets);
+        zones.for_each(|(zone, now)| zone.when_blocked = now.when_blocked);
         let Simulation { model, state, lists, .. } = &mut sim;
         state.bonds.index(&state.particles.id);
         if state.listing.rebuilds > 0 {
