@@ -98,6 +98,13 @@ pub(super) fn vectors(table: &Table, names: [&str; 3]) -> Vec<Vec3> {
     (0..x.len()).map(|k| Vec3::new(x[k], y[k], z[k])).collect()
 }
 
+/// Pairs of grains whose bond is whole at a time.
+pub(super) fn whole_bonds(run: &Held, time: f64) -> Vec<[u64; 2]> {
+    let Some(table) = run.table("/bonds", time) else { return Vec::new() };
+    let [i, j, broken] = ["id_i", "id_j", "broken"].map(|name| values(table, name));
+    (0..i.len()).filter(|k| broken[*k] == 0.0).map(|k| [i[k] as u64, j[k] as u64]).collect()
+}
+
 pub(super) fn near(on: &str, found: &[f64], wanted: &[f64], tolerance: f64) {
     assert_eq!(found.len(), wanted.len(), "{on}: {found:?} for {wanted:?}");
     for (a, b) in found.iter().zip(wanted) {
@@ -225,6 +232,10 @@ fn filled(run: &Held, time: f64, (low, high): (Vec3, Vec3), period: Option<f64>)
     (0..n * n * n).filter(|k| inside(point(*k))).count() as f64 / (n * n * n) as f64
 }
 
+fn sorted([a, b]: [u64; 2]) -> [u64; 2] {
+    [a.min(b), a.max(b)]
+}
+
 /// Sizes of the sets that pairs join, of all ids.
 fn sets(ids: &[f64], pairs: &[[u64; 2]]) -> Vec<usize> {
     let mut of: BTreeMap<u64, u64> = ids.iter().map(|id| (*id as u64, *id as u64)).collect();
@@ -269,7 +280,14 @@ fn measures_are_sums_over_the_tables() {
             add("fz", sum.z);
             let acting =
                 |wall: f64| force.iter().zip(&walls).filter(|(f, k)| **k == wall && f.norm() > 0.0).count();
-            add("pairs", acting(0.0) as f64);
+            // Of a pair that is bonded, the bond counts whether the two touch or not.
+            let bonded: BTreeSet<[u64; 2]> = whole_bonds(&run, *t).into_iter().map(sorted).collect();
+            let touching =
+                contacts.map_or(Vec::new(), |c| ["id_i", "id_j"].map(|name| values(c, name)).to_vec());
+            let touch = |k: &usize| sorted([touching[0][*k] as u64, touching[1][*k] as u64]);
+            let besides = (0..force.len()).filter(|k| walls[*k] == 0.0 && force[*k].norm() > 0.0);
+            let besides = besides.filter(|k| !bonded.contains(&touch(k))).count();
+            add("pairs", (besides + bonded.len()) as f64);
             add("wall_contacts", acting(1.0) as f64);
         }
         let is = |words: &[&str], name: &str, tolerance: f64| {
@@ -307,10 +325,7 @@ fn measures_are_sums_over_the_tables() {
 fn bonds(run: &Held, times: &[f64]) {
     let (mut count, mut largest) = (Vec::new(), Vec::new());
     for t in times {
-        let (frame, table) = (run.table("/particles", *t).unwrap(), run.table("/bonds", *t).unwrap());
-        let [i, j, broken] = ["id_i", "id_j", "broken"].map(|name| values(table, name));
-        let whole = (0..i.len()).filter(|k| broken[*k] == 0.0);
-        let pairs: Vec<[u64; 2]> = whole.map(|k| [i[k] as u64, j[k] as u64]).collect();
+        let (frame, pairs) = (run.table("/particles", *t).unwrap(), whole_bonds(run, *t));
         let all = sets(&values(frame, "id"), &pairs);
         count.push(all.len() as f64);
         largest.push(*all.iter().max().unwrap() as f64);

@@ -1,6 +1,6 @@
 //! Contacts one by one, and bonds.
 
-use super::super::kinds::{Held, kinds, near, values, vectors};
+use super::super::kinds::{Held, kinds, near, values, vectors, whole_bonds};
 use super::super::{column, measure};
 use super::{PERIOD, frame, nearest};
 use geom::Vec3;
@@ -90,6 +90,13 @@ fn contacts_add_up_one_by_one() {
                     if walls.insert((unit, touch.wall)) {
                         *met.entry(unit).or_default() += 1;
                     }
+                }
+            }
+            for [i, j] in whole_bonds(&run, t) {
+                let [a, b] = [f.unit_of[&i], f.unit_of[&j]];
+                if pairs.insert([a.min(b), a.max(b)], ()).is_none() {
+                    *met.entry(a).or_default() += 1;
+                    *met.entry(b).or_default() += 1;
                 }
             }
             let mut add = |name: &'static str, value: f64| wanted.entry(name).or_default().push(value);
