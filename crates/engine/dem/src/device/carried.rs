@@ -64,7 +64,7 @@ impl Course {
                     velocity: of(flow.velocity),
                     acceleration: of(flow.acceleration),
                     spin: of(flow.spin),
-                    acts: if room::is_looked_at(state, t, time) { WATCHED } else { 1 },
+                    acts: if room::is_watched(state, t) { WATCHED } else { 1 },
                 };
                 let past = t.zone(zones).plane.signed_distance(&centre) + t.lead;
                 if !(time < t.since || past < 0.0) {
@@ -109,7 +109,7 @@ impl Course {
         for n in 0..if done > 0 { state.zones.zone_particles.len() } else { 0 } {
             // The steps of the launch have been counted by now.
             let t = &state.zones.zone_particles[n];
-            if room::is_looked_at(state, t, state.time()) {
+            if room::has_come_in(state, t, state.time()) {
                 state.zones.zone_particles[n].clear = true;
             }
         }

@@ -129,7 +129,7 @@ impl Zones {
             Direction::Out(outlet) => (outlet as usize) < outlets,
             Direction::In(inlet) => (inlet as usize) < inlets,
         };
-        let entries = || self.pending.iter().chain(&self.waiting);
+        let entries = || self.pending.iter().chain(&self.waiting).chain(&self.announced);
         lengths
             && [self.gone.len(), self.prescribed.len()] == [flags; 2]
             && self.flags_are_valid()

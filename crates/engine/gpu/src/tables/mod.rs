@@ -101,7 +101,7 @@ pub struct DeviceZoneRow {
     pub acts: u64,
 }
 
-/// Of [`DeviceZoneRow::acts`]: it is in the zone, and free as soon as it meets anything.
+/// Of [`DeviceZoneRow::acts`]: it is in the zone, and whatever it meets counts.
 pub const WATCHED: u64 = 2;
 
 /// Particles in zones, and those that begin to move.

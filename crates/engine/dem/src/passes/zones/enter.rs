@@ -9,7 +9,7 @@ use crate::setup::bond::join;
 use crate::setup::clumps::members;
 use crate::setup::{Entry, EntryClump, Particle, Setup, WallShape, WhenBlocked, Zone, ZoneMotion};
 use crate::state::clumps::starts;
-use crate::state::{Direction, Kinematics, LOOK_AHEAD, ListStatus, NoRoom, Path, State, ZoneParticle, Zones};
+use crate::state::{Direction, Kinematics, LOOK_AHEAD, ListStatus, Path, State, ZoneParticle, Zones};
 use geom::Vec3;
 use std::collections::BTreeSet;
 
@@ -135,37 +135,28 @@ pub fn insert_due(model: &Model, state: &mut State, lists: &NeighbourLists) -> R
         coming.push_back(e);
     }
     let room = Room::near(model, state, coming.iter(), horizon - now);
-    let (mut halt, mut looked_at) = (None, vec![0; state.zones.inlets.len()]);
+    state.zones.announced.retain(|e| e.time > now);
+    let (mut halt, mut looked_at) = (Ok(()), vec![0; state.zones.inlets.len()]);
     for n in 0..coming.len() {
         let (e, waits) = (coming[n], n < waited);
-        let when_blocked = state.zones.inlets[e.inlet as usize].when_blocked;
         looked_at[e.inlet as usize] += usize::from(waits);
         if waits && looked_at[e.inlet as usize] > LOOKED_AT {
             state.zones.waiting.push_back(e);
             continue;
         }
-        let taken_by = when_blocked.and_then(|when| Some((when, room.taken_by(model, state, &e)?)));
-        match taken_by {
-            None => add(model, state, &e, now),
-            Some((WhenBlocked::Wait, _)) => {
-                no_room(model, state, e.inlet).waited += u64::from(!waits);
-                state.zones.waiting.push_back(e);
-            }
-            Some((WhenBlocked::Skip, _)) => {
-                no_room(model, state, e.inlet).skipped += 1;
-                let members = e.clump.map_or(1, |c| members(&c, &model.setup));
-                for k in 0..members {
-                    state.zones.ids.remove(&e.particle.id.wrapping_add(k));
-                }
-            }
-            Some((WhenBlocked::Stop, other)) => {
-                let by = Entrance::of(e.inlet, model.setup.guards.cuts);
-                let (id, position) = (e.particle.id, e.particle.position);
-                halt = Some(Halt::NoRoom { time: now, id, by, partner: state.particles.id[other], position });
-                // Nothing is lost: a run that goes on begins with it.
-                coming.iter().skip(n).rev().for_each(|e| state.zones.pending.push_front(*e));
-                break;
-            }
+        let looks = state.zones.inlets[e.inlet as usize].when_blocked.is_some();
+        if let Some(k) = looks.then(|| room.taken_by(model, state, &e)).flatten() {
+            halt = no_room(model, state, e, state.particles.id[k], waits);
+        } else {
+            add(model, state, &e, now);
+            state.zones.announced.extend((looks && e.time > now).then_some(e));
+        }
+        if halt.is_err() {
+            // Behind the one that has no room.
+            let first = state.zones.pending.pop_front();
+            coming.iter().skip(n + 1).rev().for_each(|e| state.zones.pending.push_front(*e));
+            first.into_iter().for_each(|e| state.zones.pending.push_front(e));
+            break;
         }
     }
     state.zones.look_again = state.steps + LOOK_AHEAD;
@@ -175,21 +166,60 @@ pub fn insert_due(model: &Model, state: &mut State, lists: &NeighbourLists) -> R
         removed::make_room(model, state, lists, first);
         state.listing.outdate(ListStatus::Outdated);
     }
-    halt.map_or(Ok(()), Err)
+    halt
 }
 
-/// What an insertion, which is an inlet, found no room for.
-fn no_room<'a>(model: &Model, state: &'a mut State, inlet: u32) -> &'a mut NoRoom {
-    let cuts = (model.setup.guards.cuts as usize).min(model.setup.inlets.len());
-    &mut state.zones.lost.returned.inserts[inlet as usize - cuts]
+/// What becomes of an entry whose place particle `other` has; `again`: it waited before.
+fn no_room(model: &Model, state: &mut State, e: Entry, other: u32, again: bool) -> Result<(), Halt> {
+    let (time, cuts) = (state.time(), (model.setup.guards.cuts as usize).min(model.setup.inlets.len()));
+    let zones = &mut state.zones;
+    let counted = &mut zones.lost.returned.inserts[e.inlet as usize - cuts];
+    match zones.inlets[e.inlet as usize].when_blocked.unwrap_or_default() {
+        WhenBlocked::Wait => {
+            counted.waited += u64::from(!again);
+            zones.waiting.push_back(e);
+        }
+        WhenBlocked::Skip => {
+            counted.skipped += 1;
+            let members = e.clump.map_or(1, |c| members(&c, &model.setup));
+            for k in 0..members {
+                zones.ids.remove(&e.particle.id.wrapping_add(k));
+            }
+        }
+        WhenBlocked::Stop => {
+            // Nothing is lost: a run that goes on begins with it.
+            zones.pending.push_front(e);
+            let by = Entrance::of(e.inlet, model.setup.guards.cuts);
+            let (id, position) = (e.particle.id, e.particle.position);
+            return Err(Halt::NoRoom { time, id, by, partner: other, position });
+        }
+    }
+    Ok(())
+}
+
+/// Takes back an entry that was listed, and has met particle `other` before it came in: it waits, is left out, or the run stops, as if it had not been listed.
+///
+/// # Errors
+/// It is to stop the run.
+pub fn put_back(model: &Model, state: &mut State, id: u32, other: u32) -> Result<(), Halt> {
+    let Some(at) = state.zones.announced.iter().position(|e| e.particle.id == id) else { return Ok(()) };
+    let e = state.zones.announced.remove(at);
+    if state.zones.waiting.is_empty() {
+        state.zones.look_again = state.steps + LOOK_AHEAD;
+    }
+    // Its rows leave before it is listed again.
+    state.listing.outdate(ListStatus::Outdated);
+    let outcome = no_room(model, state, e, other, false);
+    count_waiting(model, state);
+    outcome
 }
 
 /// Counts those that wait.
 fn count_waiting(model: &Model, state: &mut State) {
-    state.zones.lost.returned.inserts.iter_mut().for_each(|insert| insert.waiting = 0);
-    for n in 0..state.zones.waiting.len() {
-        no_room(model, state, state.zones.waiting[n].inlet).waiting += 1;
-    }
+    let cuts = (model.setup.guards.cuts as usize).min(model.setup.inlets.len());
+    let inserts = &mut state.zones.lost.returned.inserts;
+    inserts.iter_mut().for_each(|insert| insert.waiting = 0);
+    state.zones.waiting.iter().for_each(|e| inserts[e.inlet as usize - cuts].waiting += 1);
 }
 
 /// Forgets the clusters of particles that have left, once these are as many as those that are here: the list does not grow with the stream.

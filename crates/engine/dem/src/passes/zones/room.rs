@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! it is due      → a place that another particle has at that time: it waits, is left out, or the run stops
+//! listed, before → it meets a free particle: so does what waits
 //! on its way     → it meets a free particle, or a wall after it was clear of walls: it is free from then on
 //! end of its way → it is free
 //! ```
@@ -14,7 +15,7 @@ use crate::passes::touching::position_before;
 use crate::setup::{Entry, Particle};
 use crate::state::clumps::starts;
 use crate::state::{Direction, State, ZoneParticle};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Overlap over the smaller radius that is rounding [–].
 const ROUNDING: f64 = 1e-6;
@@ -96,8 +97,8 @@ pub struct InWall {
 /// What an inserted particle on its way had met when forces were computed.
 #[derive(Default)]
 struct Meets {
-    /// A particle that is free.
-    particle: bool,
+    /// Id of a particle that is free.
+    particle: Option<u32>,
     /// The wall that it overlaps most.
     wall: Option<InWall>,
 }
@@ -126,7 +127,7 @@ impl Meets {
                 continue;
             }
             match wall {
-                None => found.particle = true,
+                None => found.particle = Some(state.particles.id[slots.other(end) as usize]),
                 Some(wall) if found.wall.as_ref().is_none_or(|deepest| overlap > deepest.overlap) => {
                     found.wall = Some(InWall { wall, overlap });
                 }
@@ -137,18 +138,31 @@ impl Meets {
     }
 }
 
-/// Ids of what passes (a particle, or the first member of its clump) that has met something on its way, and is free from now on; particles are where the last step has put them.
-pub fn met(model: &Model, state: &mut State, lists: &NeighbourLists) -> BTreeSet<u32> {
+/// What inserted particles have met, by the id of what passes: a particle, or the first member of its clump.
+#[derive(Default)]
+pub struct Met {
+    /// Those that have come in: they are free from now on.
+    pub freed: BTreeSet<u32>,
+    /// Those that are still to come in, and of each the particle that it has met: there is no room for them.
+    pub taken: BTreeMap<u32, u32>,
+}
+
+/// What inserted particles have met in the last step; particles are where that has put them.
+pub fn met(model: &Model, state: &mut State, lists: &NeighbourLists) -> Met {
     let now = state.time();
-    let mut met = BTreeSet::new();
+    let mut met = Met::default();
     for n in 0..state.zones.zone_particles.len() {
         let t = &state.zones.zone_particles[n];
-        if !is_looked_at(state, t, now) {
+        if !is_watched(state, t) {
             continue;
         }
         let Meets { particle, wall } = Meets::of(model, state, lists, t);
-        if particle || wall.is_some() && t.clear {
-            met.insert(t.passing_id);
+        if !(now > t.since) {
+            met.taken.extend(particle.map(|other| (t.passing_id, other)));
+            continue;
+        }
+        if particle.is_some() || wall.is_some() && t.clear {
+            met.freed.insert(t.passing_id);
         }
         if wall.is_none() {
             state.zones.zone_particles[n].clear = true;
@@ -157,15 +171,20 @@ pub fn met(model: &Model, state: &mut State, lists: &NeighbourLists) -> BTreeSet
     met
 }
 
-/// Whether a particle is being inserted, and has come in by a time [s].
-pub fn is_looked_at(state: &State, t: &ZoneParticle, now: f64) -> bool {
+/// Whether a particle is being inserted, and whatever it meets counts.
+pub fn is_watched(state: &State, t: &ZoneParticle) -> bool {
     let Direction::In(inlet) = t.direction else { return false };
-    now > t.since && state.zones.inlets[inlet as usize].when_blocked.is_some()
+    state.zones.inlets[inlet as usize].when_blocked.is_some()
+}
+
+/// Whether a particle is being inserted, and has come in by a time [s].
+pub fn has_come_in(state: &State, t: &ZoneParticle, now: f64) -> bool {
+    now > t.since && is_watched(state, t)
 }
 
 /// The wall that an inserted particle becomes free in; it has not been clear of walls on its way.
 pub fn in_wall(model: &Model, state: &State, lists: &NeighbourLists, t: &ZoneParticle) -> Option<InWall> {
-    if t.clear || !is_looked_at(state, t, state.time()) {
+    if t.clear || !has_come_in(state, t, state.time()) {
         return None;
     }
     Meets::of(model, state, lists, t).wall.filter(|wall| wall.overlap > INSIDE * t.start.radius)

@@ -3,6 +3,7 @@
 use crate::model::{Entrance, Halt, Model};
 use crate::neighbours::NeighbourLists;
 use crate::passes::touching::position_before;
+use crate::passes::zones::enter;
 use crate::passes::zones::history::restore_history;
 use crate::passes::zones::idle_contacts::held;
 use crate::passes::zones::room::{self, InWall};
@@ -23,6 +24,7 @@ use laws::space::sphere::away;
 pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> Result<(), Halt> {
     let (now, met) = (state.time(), room::met(model, state, lists));
     let mut halt = Ok(());
+    let mut taken = met.taken.iter();
     let mut zone_particles = std::mem::take(&mut state.zones.zone_particles);
     // All members of a clump follow one path.
     let mut ended = Vec::new();
@@ -52,7 +54,13 @@ pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut Neighbo
                 exclude(model, state, lists, t.at as usize);
                 false
             }
-            (Direction::In(_), None) if now < t.since || past < 0.0 && !met.contains(&t.passing_id) => true,
+            (Direction::In(_), None) if met.taken.contains_key(&t.passing_id) => {
+                exclude(model, state, lists, t.at as usize);
+                false
+            }
+            (Direction::In(_), None) if now < t.since || past < 0.0 && !met.freed.contains(&t.passing_id) => {
+                true
+            }
             (Direction::In(i), _) => {
                 ended.push(t.passing_id);
                 if let (true, Some(InWall { wall, overlap })) =
@@ -69,7 +77,8 @@ pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut Neighbo
     });
     ended.iter().for_each(|id| drop(state.zones.paths.remove(id)));
     state.zones.zone_particles = zone_particles;
-    halt
+    let no_room = taken.try_for_each(|(id, other)| enter::put_back(model, state, *id, *other));
+    halt.and(no_room)
 }
 
 /// Moves a zone particle to where it is at a time [s]; the position of its centre then, and how that moves.

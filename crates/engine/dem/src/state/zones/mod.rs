@@ -34,7 +34,9 @@ pub struct Zones {
     pub(crate) pending: VecDeque<Entry>,
     /// Entries that are past their time, because their places were taken.
     pub(crate) waiting: VecDeque<Entry>,
-    /// Step in which their places are looked at next.
+    /// Entries that are listed already and come in later, of insertions; some that have come in since.
+    pub(crate) announced: Vec<Entry>,
+    /// Step in which the places of those that wait are looked at next.
     pub(crate) look_again: u64,
     pub(crate) crossings: Vec<Crossing>,
     /// For each outlet, particles that may be past its plane, or come back through it, until the next rebuild.
@@ -166,6 +168,7 @@ impl Zones {
             crossed: _,
             pending: _,
             waiting: _,
+            announced: _,
             look_again: _,
             crossings: _,
             ids: _,

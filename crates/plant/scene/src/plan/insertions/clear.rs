@@ -64,7 +64,7 @@ fn overlap(element: &WallElement, centre: &Vec3, radius: f64) -> f64 {
 fn touches(element: &WallElement, (low, high): &(Vec3, Vec3)) -> bool {
     let (from, to) = match *element {
         WallElement::Sphere(centre, radius) => (centre - Vec3::repeat(radius), centre + Vec3::repeat(radius)),
-        WallElement::Plane(_) => return false,
+        WallElement::Plane(_) => return true,
         WallElement::Triangle([a, b, c]) => (a.inf(&b).inf(&c), a.sup(&b).sup(&c)),
     };
     (0..3).all(|axis| from[axis] <= high[axis] && to[axis] >= low[axis])
