@@ -115,10 +115,9 @@ impl Simulation {
             let all = 0..lists.slots.segments.len();
             return check_overlap(model, state, lists, &[all], false);
         }
-        let mut freed = Ok(());
         if flags.met != 0 {
             find_points_before(model, state, lists);
-            freed = travel::move_zone_particles(model, state, lists);
+            travel::move_zone_particles(model, state, lists)?;
         }
         if flags.deep != 0 {
             find_points_before(model, state, lists);
@@ -128,7 +127,7 @@ impl Simulation {
         if flags.too_fast != 0 {
             guards::check_motion(model, state)?;
         }
-        freed
+        Ok(())
     }
 }
 

@@ -48,11 +48,11 @@ impl Simulation {
         state.bonds.advance(&state.particles, model.dt);
         let freed = zones::travel::move_zone_particles(model, state, lists);
         zones::cross::find_crossings(model, state, lists);
+        freed?;
         check_overlap(model, state, lists, &found.deep, true)?;
         if moved.too_fast {
             guards::check_motion(model, state)?;
         }
-        freed?;
         driven?;
         strained?;
         if guards::checks_energy(model, state) {
