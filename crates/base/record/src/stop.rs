@@ -43,6 +43,8 @@ pub enum Guard {
     Domain,
     /// Bonds that are made during the run.
     Bonds,
+    /// Grains that are inserted without room, or into a wall.
+    Insertion,
     /// Contact wrenches that are asked for and were not recorded.
     Wrenches,
 }

@@ -7,11 +7,12 @@ use record::{Guard, StopCause};
 pub fn stop_cause(halt: &Halt) -> StopCause {
     let guard = match halt {
         Halt::Device { .. } => return StopCause::Device,
-        Halt::Overlap { .. } | Halt::InletOverlap { .. } | Halt::FreeInWall { .. } => Guard::Overlap,
+        Halt::Overlap { .. } | Halt::InletOverlap { .. } => Guard::Overlap,
         Halt::Motion { .. } | Halt::TooFast { .. } => Guard::Motion,
         Halt::Energy { .. } => Guard::Energy,
-        Halt::CameBack { .. } | Halt::NoRoom { .. } => Guard::Zones,
+        Halt::CameBack { .. } => Guard::Zones,
         Halt::NotANumber { .. } | Halt::WallNotANumber { .. } => Guard::NotANumber,
+        Halt::FreeInWall { .. } | Halt::NoRoom { .. } => Guard::Insertion,
         Halt::WallTooFast { .. } | Halt::WallTooLight { .. } | Halt::WallPastAll { .. } => Guard::Walls,
         Halt::CellTooSmall { .. } => Guard::Domain,
         Halt::BondsTooStiff { .. } | Halt::Bonds { .. } => Guard::Bonds,
