@@ -204,8 +204,8 @@ impl<W: Write> Run<W> {
         let named =
             |e: &dem::EffectCost| format!("{} ({}–{}): {}", e.effect, e.between.0, e.between.1, e.because);
         outcome.effects = sim.explain().iter().map(named).collect();
-        let kept_out = |insert: &dem::NoRoom| insert.waiting + insert.skipped;
-        outcome.entered = supply.entered - outcome.returned.inserts.iter().map(kept_out).sum::<u64>();
+        let skipped = outcome.returned.inserts.iter().map(|insert| insert.skipped).sum::<u64>();
+        outcome.entered = supply.entered.saturating_sub(skipped + sim.still_to_come());
         Ok((outcome, writer.finish()?))
     }
 }

@@ -4,7 +4,8 @@ use super::Simulation;
 use crate::model::{Halt, SetupError};
 use crate::passes::zones::{enter, paths, returned};
 use crate::setup::{Crossing, CrossingBond, Entry, Guide, PairHistory, PathSample};
-use crate::state::{Forces, ListStatus, Returned, State};
+use crate::state::{Direction, Forces, ListStatus, Returned, State, ZoneParticle};
+use std::collections::BTreeSet;
 
 impl Simulation {
     /// Queues a particle that will enter; due when time() reaches `entry.time`.
@@ -76,6 +77,15 @@ impl Simulation {
     pub fn looks_back(&self, until: u64) -> bool {
         let State { zones, dt, .. } = &self.state;
         zones.is_watched() || !zones.stay_slow([self.time(), until as f64 * dt], *dt, &self.model.setup)
+    }
+
+    /// How many entries that were given have not come in, those that wait included; a clump counts as one.
+    pub fn still_to_come(&self) -> u64 {
+        let (zones, now) = (&self.state.zones, self.time());
+        let listed = |t: &&ZoneParticle| matches!(t.direction, Direction::In(_)) && t.since > now;
+        let listed = zones.zone_particles.iter().filter(listed).map(|t| t.passing_id);
+        let listed: BTreeSet<u32> = listed.collect();
+        (zones.pending.len() + zones.waiting.len() + listed.len()) as u64
     }
 
     /// How many particles went back through planes so far.

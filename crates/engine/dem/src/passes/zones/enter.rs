@@ -137,6 +137,7 @@ pub fn insert_due(model: &Model, state: &mut State, lists: &NeighbourLists) -> R
     let room = Room::near(model, state, coming.iter(), horizon - now);
     state.zones.announced.retain(|e| e.time > now);
     let (mut halt, mut looked_at) = (Ok(()), vec![0; state.zones.inlets.len()]);
+    let mut later = Vec::new();
     for n in 0..coming.len() {
         let (e, waits) = (coming[n], n < waited);
         looked_at[e.inlet as usize] += usize::from(waits);
@@ -145,20 +146,22 @@ pub fn insert_due(model: &Model, state: &mut State, lists: &NeighbourLists) -> R
             continue;
         }
         let looks = state.zones.inlets[e.inlet as usize].when_blocked.is_some();
-        if let Some(k) = looks.then(|| room.taken_by(model, state, &e)).flatten() {
-            halt = no_room(model, state, e, state.particles.id[k], waits);
-        } else {
-            add(model, state, &e, now);
-            state.zones.announced.extend((looks && e.time > now).then_some(e));
+        match looks.then(|| room.taken_by(model, state, &e)).flatten() {
+            None => {
+                add(model, state, &e, now);
+                state.zones.announced.extend((looks && e.time > now).then_some(e));
+            }
+            // What has its place may have gone by then: that is decided when it is due.
+            Some(_) if e.time > now => later.push(e),
+            Some(k) => halt = no_room(model, state, e, state.particles.id[k], waits),
         }
         if halt.is_err() {
-            // Behind the one that has no room.
-            let first = state.zones.pending.pop_front();
-            coming.iter().skip(n + 1).rev().for_each(|e| state.zones.pending.push_front(*e));
-            first.into_iter().for_each(|e| state.zones.pending.push_front(e));
+            // Nothing is lost: a run that goes on begins with what has no room.
+            later.extend(coming.iter().skip(n));
             break;
         }
     }
+    later.into_iter().rev().for_each(|e| state.zones.pending.push_front(e));
     state.zones.look_again = state.steps + LOOK_AHEAD;
     count_waiting(model, state);
     if state.particles.len() > first {
@@ -187,8 +190,6 @@ fn no_room(model: &Model, state: &mut State, e: Entry, other: u32, again: bool) 
             }
         }
         WhenBlocked::Stop => {
-            // Nothing is lost: a run that goes on begins with it.
-            zones.pending.push_front(e);
             let by = Entrance::of(e.inlet, model.setup.guards.cuts);
             let (id, position) = (e.particle.id, e.particle.position);
             return Err(Halt::NoRoom { time, id, by, partner: other, position });
@@ -197,21 +198,14 @@ fn no_room(model: &Model, state: &mut State, e: Entry, other: u32, again: bool) 
     Ok(())
 }
 
-/// Takes back an entry that was listed, and has met particle `other` before it came in: it waits, is left out, or the run stops, as if it had not been listed.
-///
-/// # Errors
-/// It is to stop the run.
-pub fn put_back(model: &Model, state: &mut State, id: u32, other: u32) -> Result<(), Halt> {
-    let Some(at) = state.zones.announced.iter().position(|e| e.particle.id == id) else { return Ok(()) };
+/// Takes back an entry that was listed, and has met something before it came in: whether there is room is decided when it is due.
+pub fn put_back(state: &mut State, id: u32) {
+    let Some(at) = state.zones.announced.iter().position(|e| e.particle.id == id) else { return };
     let e = state.zones.announced.remove(at);
-    if state.zones.waiting.is_empty() {
-        state.zones.look_again = state.steps + LOOK_AHEAD;
-    }
+    let before = state.zones.pending.partition_point(|other| other.time <= e.time);
+    state.zones.pending.insert(before, e);
     // Its rows leave before it is listed again.
     state.listing.outdate(ListStatus::Outdated);
-    let outcome = no_room(model, state, e, other, false);
-    count_waiting(model, state);
-    outcome
 }
 
 /// Counts those that wait.

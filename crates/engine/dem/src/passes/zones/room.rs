@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! it is due      → a place that another particle has at that time: it waits, is left out, or the run stops
-//! listed, before → it meets a free particle: so does what waits
+//! listed, before → it meets a free particle: it is looked at again when it is due
 //! on its way     → it meets a free particle, or a wall after it was clear of walls: it is free from then on
 //! end of its way → it is free
 //! ```
@@ -15,7 +15,7 @@ use crate::passes::touching::position_before;
 use crate::setup::{Entry, Particle};
 use crate::state::clumps::starts;
 use crate::state::{Direction, State, ZoneParticle};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// Overlap over the smaller radius that is rounding [–].
 const ROUNDING: f64 = 1e-6;
@@ -97,8 +97,8 @@ pub struct InWall {
 /// What an inserted particle on its way had met when forces were computed.
 #[derive(Default)]
 struct Meets {
-    /// Id of a particle that is free.
-    particle: Option<u32>,
+    /// Whether a particle that is free.
+    particle: bool,
     /// The wall that it overlaps most.
     wall: Option<InWall>,
 }
@@ -127,7 +127,7 @@ impl Meets {
                 continue;
             }
             match wall {
-                None => found.particle = Some(state.particles.id[slots.other(end) as usize]),
+                None => found.particle = true,
                 Some(wall) if found.wall.as_ref().is_none_or(|deepest| overlap > deepest.overlap) => {
                     found.wall = Some(InWall { wall, overlap });
                 }
@@ -143,8 +143,8 @@ impl Meets {
 pub struct Met {
     /// Those that have come in: they are free from now on.
     pub freed: BTreeSet<u32>,
-    /// Those that are still to come in, and of each the particle that it has met: there is no room for them.
-    pub taken: BTreeMap<u32, u32>,
+    /// Those that are still to come in, and have met a particle that is free.
+    pub taken: BTreeSet<u32>,
 }
 
 /// What inserted particles have met in the last step; particles are where that has put them.
@@ -158,10 +158,10 @@ pub fn met(model: &Model, state: &mut State, lists: &NeighbourLists) -> Met {
         }
         let Meets { particle, wall } = Meets::of(model, state, lists, t);
         if !(now > t.since) {
-            met.taken.extend(particle.map(|other| (t.passing_id, other)));
+            met.taken.extend(particle.then_some(t.passing_id));
             continue;
         }
-        if particle.is_some() || wall.is_some() && t.clear {
+        if particle || wall.is_some() && t.clear {
             met.freed.insert(t.passing_id);
         }
         if wall.is_none() {

@@ -24,7 +24,6 @@ use laws::space::sphere::away;
 pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut NeighbourLists) -> Result<(), Halt> {
     let (now, met) = (state.time(), room::met(model, state, lists));
     let mut halt = Ok(());
-    let mut taken = met.taken.iter();
     let mut zone_particles = std::mem::take(&mut state.zones.zone_particles);
     // All members of a clump follow one path.
     let mut ended = Vec::new();
@@ -54,7 +53,7 @@ pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut Neighbo
                 exclude(model, state, lists, t.at as usize);
                 false
             }
-            (Direction::In(_), None) if met.taken.contains_key(&t.passing_id) => {
+            (Direction::In(_), None) if met.taken.contains(&t.passing_id) => {
                 exclude(model, state, lists, t.at as usize);
                 false
             }
@@ -77,8 +76,8 @@ pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut Neighbo
     });
     ended.iter().for_each(|id| drop(state.zones.paths.remove(id)));
     state.zones.zone_particles = zone_particles;
-    let no_room = taken.try_for_each(|(id, other)| enter::put_back(model, state, *id, *other));
-    halt.and(no_room)
+    met.taken.iter().for_each(|id| enter::put_back(state, *id));
+    halt
 }
 
 /// Moves a zone particle to where it is at a time [s]; the position of its centre then, and how that moves.
