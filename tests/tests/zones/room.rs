@@ -135,9 +135,9 @@ fn random_insertions_among_moving_grains_never_begin_with_an_overlap() {
                 for other in all.iter().filter(|p| p.id != new.id) {
                     let overlap = new.radius + other.radius - (new.position - other.position).norm();
                     let fast = (new.velocity - other.velocity).norm();
-                    // Seen a step after it has come in.
+                    // A contact that begins in one of the last two steps before it comes in is one of two free grains; it is seen a step later.
                     assert!(
-                        overlap < 2.0 * fast * dt + 1e-8,
+                        overlap < 3.0 * fast * dt + 1e-8,
                         "seed {seed}: {} onto {}: {overlap} m",
                         new.id,
                         other.id
@@ -147,7 +147,10 @@ fn random_insertions_among_moving_grains_never_begin_with_an_overlap() {
             }
         });
         let NoRoom { waited: w, waiting, skipped: s } = found.expect("no guard");
-        assert_eq!(seen.len() as u64 + waiting + s, entries.len() as u64, "seed {seed}");
+        // Of what is due: nothing is decided before.
+        let due = entries.iter().filter(|e| e.time <= sim.time()).count() as u64;
+        assert_eq!(seen.len() as u64 + waiting + s, due, "seed {seed}");
+        assert!(sim.still_to_come() >= waiting, "seed {seed}");
         assert_eq!(sim.particle_count(), begun + seen.len(), "seed {seed}");
         let energy = sim.energy().expect("ready");
         assert!(

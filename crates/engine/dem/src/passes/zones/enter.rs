@@ -198,16 +198,6 @@ fn no_room(model: &Model, state: &mut State, e: Entry, other: u32, again: bool) 
     Ok(())
 }
 
-/// Takes back an entry that was listed, and has met something before it came in: whether there is room is decided when it is due.
-pub fn put_back(state: &mut State, id: u32) {
-    let Some(at) = state.zones.announced.iter().position(|e| e.particle.id == id) else { return };
-    let e = state.zones.announced.remove(at);
-    let before = state.zones.pending.partition_point(|other| other.time <= e.time);
-    state.zones.pending.insert(before, e);
-    // Its rows leave before it is listed again.
-    state.listing.outdate(ListStatus::Outdated);
-}
-
 /// Counts those that wait.
 fn count_waiting(model: &Model, state: &mut State) {
     let cuts = (model.setup.guards.cuts as usize).min(model.setup.inlets.len());

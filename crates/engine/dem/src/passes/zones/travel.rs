@@ -3,7 +3,6 @@
 use crate::model::{Entrance, Halt, Model};
 use crate::neighbours::NeighbourLists;
 use crate::passes::touching::position_before;
-use crate::passes::zones::enter;
 use crate::passes::zones::history::restore_history;
 use crate::passes::zones::idle_contacts::held;
 use crate::passes::zones::room::{self, InWall};
@@ -76,7 +75,11 @@ pub fn move_zone_particles(model: &Model, state: &mut State, lists: &mut Neighbo
     });
     ended.iter().for_each(|id| drop(state.zones.paths.remove(id)));
     state.zones.zone_particles = zone_particles;
-    met.taken.iter().for_each(|id| enter::put_back(state, *id));
+    for id in &met.taken {
+        state.zones.put_back(*id);
+        // Its rows leave before it is listed again.
+        state.listing.outdate(ListStatus::Outdated);
+    }
     halt
 }
 

@@ -87,6 +87,14 @@ impl Zones {
         }
     }
 
+    /// Takes back an entry that was listed, and has met something before it came in: whether there is room is decided when it is due.
+    pub(crate) fn put_back(&mut self, id: u32) {
+        let Some(at) = self.announced.iter().position(|e| e.particle.id == id) else { return };
+        let e = self.announced.remove(at);
+        let before = self.pending.partition_point(|other| other.time <= e.time);
+        self.pending.insert(before, e);
+    }
+
     /// Whether the scene has no zone at all.
     pub fn none(&self) -> bool {
         self.outlets.is_empty() && self.inlets.is_empty()
