@@ -294,7 +294,7 @@ fn a_pipeline_does_not_take_a_stopped_run_as_made() {
 fn a_stage_that_has_not_changed_keeps_its_time() {
     let folder = tempfile::tempdir().unwrap();
     let (plant, up) = (folder.path().join("plant.toml"), folder.path().join("up.toml"));
-    let floor = "[[wall]]\nname = \"floor\"\nsolid = \"box:-1,-1,-2,1,1,-1.9\"\nmaterial = \"MATERIAL\"\n";
+    let floor = "[[wall]]\nname = \"tray\"\nsolid = \"box:-1,-1,-2,1,1,-1.9\"\nmaterial = \"MATERIAL\"\n";
     let name = LONG.split_once("name = \"").and_then(|(_, rest)| rest.split('"').next()).unwrap();
     let floor = floor.replace("MATERIAL", name);
     let split = || {
