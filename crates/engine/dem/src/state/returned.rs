@@ -53,6 +53,13 @@ pub struct Returned {
     pub inserts: Vec<NoRoom>,
 }
 
+impl Returned {
+    /// What an insertion found no room for, by its number among all inlets: those that are watched come first.
+    pub(crate) fn no_room(&mut self, inlet: u32) -> &mut NoRoom {
+        &mut self.inserts[inlet as usize - self.inlets.len()]
+    }
+}
+
 /// Where particles came from.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct ReturnCounts {

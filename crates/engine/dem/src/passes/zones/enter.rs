@@ -163,7 +163,7 @@ pub fn insert_due(model: &Model, state: &mut State, lists: &NeighbourLists) -> R
     }
     later.into_iter().rev().for_each(|e| state.zones.pending.push_front(e));
     state.zones.look_again = state.steps + LOOK_AHEAD;
-    count_waiting(model, state);
+    count_waiting(state);
     if state.particles.len() > first {
         forget_clusters(state);
         removed::make_room(model, state, lists, first);
@@ -174,9 +174,8 @@ pub fn insert_due(model: &Model, state: &mut State, lists: &NeighbourLists) -> R
 
 /// What becomes of an entry whose place particle `other` has; `again`: it waited before.
 fn no_room(model: &Model, state: &mut State, e: Entry, other: u32, again: bool) -> Result<(), Halt> {
-    let (time, cuts) = (state.time(), (model.setup.guards.cuts as usize).min(model.setup.inlets.len()));
-    let zones = &mut state.zones;
-    let counted = &mut zones.lost.returned.inserts[e.inlet as usize - cuts];
+    let (time, zones) = (state.time(), &mut state.zones);
+    let counted = zones.lost.returned.no_room(e.inlet);
     match zones.inlets[e.inlet as usize].when_blocked.unwrap_or_default() {
         WhenBlocked::Wait => {
             counted.waited += u64::from(!again);
@@ -199,11 +198,10 @@ fn no_room(model: &Model, state: &mut State, e: Entry, other: u32, again: bool) 
 }
 
 /// Counts those that wait.
-fn count_waiting(model: &Model, state: &mut State) {
-    let cuts = (model.setup.guards.cuts as usize).min(model.setup.inlets.len());
-    let inserts = &mut state.zones.lost.returned.inserts;
-    inserts.iter_mut().for_each(|insert| insert.waiting = 0);
-    state.zones.waiting.iter().for_each(|e| inserts[e.inlet as usize - cuts].waiting += 1);
+fn count_waiting(state: &mut State) {
+    let Zones { waiting, lost, .. } = &mut state.zones;
+    lost.returned.inserts.iter_mut().for_each(|insert| insert.waiting = 0);
+    waiting.iter().for_each(|e| lost.returned.no_room(e.inlet).waiting += 1);
 }
 
 /// Forgets the clusters of particles that have left, once these are as many as those that are here: the list does not grow with the stream.
