@@ -18,6 +18,7 @@ use geom::Vec3;
 use laws::contact::{LEDGER, WrenchSlices, WrenchSums};
 use laws::simd::BLOCK;
 use laws::space::images::Image;
+use laws::space::sphere::inverse_inertia;
 
 /// After the forces of a step and its move: what they did to walls.
 pub fn add(model: &Model, state: &mut State, lists: &NeighbourLists) {
@@ -48,7 +49,7 @@ pub fn add(model: &Model, state: &mut State, lists: &NeighbourLists) {
                 );
             }
         }
-        onset.end(&mut sums, wall);
+        onset.end(&reader, &mut sums, wall);
     }
     sums.end_instant();
     (state.wall_sums, state.contacts.touched) = (sums, touched);
@@ -67,7 +68,7 @@ fn add_slot(
     if load.is_none() && sliding == 0.0 && *touched == 0 {
         return;
     }
-    onset.turn_to(reader.lists.slots.i[slot], sums, wall);
+    onset.turn_to(reader, reader.lists.slots.i[slot], sums, wall);
     let part = reader.part(wall, slot);
     sums.whole[wall].sliding += sliding;
     if let Some(part) = sums.parts[wall].of(part).filter(|_| sliding != 0.0) {
@@ -76,11 +77,12 @@ fn add_slot(
     onset.before |= *touched != 0;
     if let Some(load) = &load {
         load.add(sums, (wall, part), time);
-        if *touched == 0 {
-            onset.note(reader, slot, part, load);
-        }
     }
+    let is_new = *touched == 0;
     *touched = u8::from(load.is_some());
+    if let Some(load) = load.filter(|_| is_new) {
+        onset.note(reader, slot, part, load);
+    }
 }
 
 /// Takes the sums up to this instant, whose forces are known.
@@ -271,18 +273,32 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Energy of the approach of a particle to a wall along the normal and along the surface [J].
-    fn impact(&self, slot: usize, load: &Load) -> [f64; 2] {
+    /// Energy of the approach of a particle to a wall along the normal and along the surface [J]. `kick`: what the contacts that have just begun have
+    /// done to it; half a step of that is in its velocity by now.
+    fn impact(&self, slot: usize, load: &Load, kick: &Kick) -> [f64; 2] {
         let (k, p) = (self.lists.slots.i[slot] as usize, &self.state.particles);
         let since = if self.was_moved(k) { self.model.dt } else { 0.0 };
         let (spin, angular_acceleration) = p.rotation(k);
-        let velocity = p.rows[k].velocity() - p.acceleration[k].vector() * since;
-        let spin = spin - angular_acceleration * since;
+        let mut velocity = p.rows[k].velocity() - p.acceleration[k].vector() * since;
+        let mut spin = spin - angular_acceleration * since;
+        let inverse_mass = p.rows[k].inverse_mass();
+        // Clumps move by the forces on all their members; what begins to move has no half step behind it.
+        if !self.state.clumps.is_member(k) && self.state.steps > 0 {
+            velocity -= kick.force * (0.5 * since * inverse_mass);
+            spin -= kick.moment * (0.5 * since * inverse_inertia(p.rows[k].radius(), inverse_mass));
+        }
         let slip = velocity + spin.cross(&(load.point - self.position(k))) - load.surface;
         let along = slip.dot(&load.normal);
-        let mass = 1.0 / p.rows[k].inverse_mass();
+        let mass = 1.0 / inverse_mass;
         [0.5 * mass * along * along, 0.5 * mass * (slip - load.normal * along).norm_squared()]
     }
+}
+
+/// Force on a particle and its moment about the centre.
+#[derive(Default)]
+struct Kick {
+    force: Vec3,
+    moment: Vec3,
 }
 
 /// Whether a particle comes to touch a wall: its contacts with one wall follow each other.
@@ -291,29 +307,35 @@ struct Onset {
     particle: Option<u32>,
     /// Whether it touched the wall a step before.
     before: bool,
-    /// The new contact that is pressed most: its part, its normal force, and the energies of the approach.
-    strongest: Option<(u32, f64, [f64; 2])>,
+    /// The new contact that is pressed most: its slot, its part of the wall, and its load.
+    strongest: Option<(usize, u32, Load)>,
+    /// What all new contacts do.
+    kick: Kick,
 }
 
 impl Onset {
     /// Goes on with a contact of particle `i`.
-    fn turn_to(&mut self, i: u32, sums: &mut WallSums, wall: usize) {
+    fn turn_to(&mut self, reader: &Reader, i: u32, sums: &mut WallSums, wall: usize) {
         if self.particle != Some(i) {
-            self.end(sums, wall);
+            self.end(reader, sums, wall);
             self.particle = Some(i);
         }
     }
 
-    fn note(&mut self, reader: &Reader, slot: usize, part: u32, load: &Load) {
-        if !self.before && self.strongest.is_none_or(|(_, most, _)| load.normal_force > most) {
-            self.strongest = Some((part, load.normal_force, reader.impact(slot, load)));
+    fn note(&mut self, reader: &Reader, slot: usize, part: u32, load: Load) {
+        let arm = load.point - reader.position(reader.lists.slots.i[slot] as usize);
+        self.kick.force -= load.force;
+        self.kick.moment -= arm.cross(&load.force);
+        if self.strongest.as_ref().is_none_or(|(.., most)| load.normal_force > most.normal_force) {
+            self.strongest = Some((slot, part, load));
         }
     }
 
     /// Counts the impact of the particle, if it was one, and begins with the next particle.
-    fn end(&mut self, sums: &mut WallSums, wall: usize) {
-        let Onset { before, strongest, .. } = std::mem::take(self);
-        let Some((part, _, energy)) = strongest.filter(|_| !before) else { return };
+    fn end(&mut self, reader: &Reader, sums: &mut WallSums, wall: usize) {
+        let Onset { before, strongest, kick, .. } = std::mem::take(self);
+        let Some((slot, part, load)) = strongest.filter(|_| !before) else { return };
+        let energy = reader.impact(slot, &load, &kick);
         let whole = &mut sums.whole[wall];
         whole.impacts += 1;
         (0..2).for_each(|k| whole.impact_energy[k] += energy[k]);
