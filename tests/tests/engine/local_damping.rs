@@ -85,6 +85,38 @@ fn a_clump_is_damped_as_a_whole() {
     assert!((clump.spin - spin).norm() < 1e-12, "{:?}", clump.spin);
 }
 
+/// A clump of one sphere moves as that sphere does, from the very first step: it falls obliquely onto a plane that it touches at the start.
+#[test]
+fn a_clump_of_one_sphere_moves_as_the_sphere() {
+    let of = |is_clump: bool| {
+        let mut setup = with_friction(empty(HOOKE, 0.5), 0.3);
+        (setup.gravity, setup.local_damping, setup.ledger) = (Vec3::z() * -9.81, Some(ALPHA), true);
+        setup.walls = vec![plane(Vec3::z())];
+        let (position, velocity, spin) = (Vec3::z() * 0.00999, Vec3::new(0.3, 0.1, -0.2), Vec3::y() * 5.0);
+        if is_clump {
+            let spheres = [(Vec3::zeros(), 0.01)];
+            let shape = ClumpShape::new("ball", 0, &spheres, &geom::Moments::of_sum(&spheres));
+            let orientation = nalgebra::UnitQuaternion::identity();
+            let placed = vec![Body { id: 1, shape: 0, scale: 1.0, position, orientation, velocity, spin }];
+            setup.clumps = Clumps { shapes: vec![shape], placed, entries: vec![] };
+        } else {
+            setup.particles = vec![Particle { velocity, spin, ..grain(1, position) }];
+        }
+        Simulation::new(setup).expect("sound")
+    };
+    let [mut ball, mut clump] = [false, true].map(of);
+    let start = clump.energy().expect("sound").balance();
+    for step in 0..400 {
+        let (a, b) = (particles(&mut ball)[0], particles(&mut clump)[0]);
+        let error = (a.velocity - b.velocity).norm() + 0.01 * (a.spin - b.spin).norm();
+        assert!(error < 1e-12 && (a.position - b.position).norm() < 1e-14, "step {step}: {error:e} m/s");
+        let energy = clump.energy().expect("sound");
+        let off = (energy.balance() - start) / energy.translation.max(energy.exchanged());
+        assert!(off.abs() < 1e-12, "step {step}: {off:e}");
+        [&mut ball, &mut clump].into_iter().for_each(|sim| sim.step().expect("within the guards"));
+    }
+}
+
 /// A heap of 60 grains of two sizes that falls on a plane.
 fn heap(law: Law) -> Setup {
     let mut setup = with_friction(empty(law, 0.5), 0.4);

@@ -105,7 +105,7 @@ pub unsafe fn particle<const ROTATES: bool, const SLOWED: bool>(t: &DeviceTables
             mover.turn(row, spin, acceleration, &sum);
             turned = Some((spin, acceleration, was));
         }
-        if SLOWED {
+        if SLOWED && is_free(t, step, k) {
             let MoveInputs { dt, ahead, gravity, .. } = t.drive;
             let mut moved = Moved { row, acceleration, was: &was };
             if t.has_fluid != 0 {
@@ -125,6 +125,22 @@ pub unsafe fn particle<const ROTATES: bool, const SLOWED: bool>(t: &DeviceTables
                 t.flag(0, step + 1);
             }
         }
+    }
+}
+
+/// Whether a particle moves freely in step `step` of a launch: what is in a zone meets no fluid.
+///
+/// # Safety
+/// Tables are in place, and there is such a particle.
+#[inline(always)]
+unsafe fn is_free(t: &DeviceTables, step: u32, k: usize) -> bool {
+    // SAFETY: by contract.
+    unsafe {
+        if t.zones.count == 0 {
+            return true;
+        }
+        let place: u32 = *t.particles.place.at(k);
+        place < t.particle_count && *t.zones.free_from.at::<u32>(place as usize) <= step
     }
 }
 

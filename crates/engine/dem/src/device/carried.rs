@@ -22,6 +22,7 @@ pub struct Carried {
     starts: Table,
     rows: Table,
     rows_now: Table,
+    free_from: Table,
 }
 
 /// What particles on their way in do in the steps of one launch.
@@ -95,8 +96,14 @@ impl Course {
         zones.at = tables.at.write(work.device, &self.at)?;
         zones.starts = tables.starts.write(work.device, &self.starts)?;
         zones.rows = tables.rows.write(work.device, &self.rows)?;
-        zones.rows_now = tables.rows_now.room::<u32>(work.device, work.t.particle_count as usize)?;
-        work.launch("rows_now", work.t.particle_count as usize, 0)
+        let count = work.t.particle_count as usize;
+        zones.rows_now = tables.rows_now.room::<u32>(work.device, count)?;
+        if work.t.has_fluid != 0 || work.t.damping > 0.0 {
+            let mut free_from = vec![0; count];
+            self.at.iter().zip(&self.starts).for_each(|(at, step)| free_from[*at as usize] = *step);
+            zones.free_from = tables.free_from.write(work.device, &free_from)?;
+        }
+        work.launch("rows_now", count, 0)
     }
 
     /// How many.

@@ -24,8 +24,6 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     // What has been taken out stays in the lists of a device.
     let taken_out = setup.guards.zones == CameBack::IsRemoved && setup.guards.cuts > 0;
     refuse(enters && taken_out, "grains that are taken out where they go back through an inlet");
-    let slowed = setup.drag.is_some() || setup.local_damping.is_some();
-    refuse(enters && slowed, "grains that come in where a fluid or local damping slows them");
     refuse(state.sleepers.is_some(), "sleep");
     refuse(state.strained.is_some(), "a strained domain");
     refuse(setup.ledger || setup.guards.energy.is_finite(), "the energy ledger");

@@ -31,8 +31,10 @@ pub fn instant(model: &Model, state: &State, k: usize, sums: &WrenchSums) -> Ins
         acceleration: Vec3::zeros(),
         angular_acceleration: Vec3::zeros(),
     };
+    // Clumps are damped as a whole.
+    let is_damped = free && !state.clumps.is_member(k);
     let against = |all: Vec3, velocity: Vec3| match model.setup.local_damping {
-        Some(factor) if free => slowed_at(factor, all, &velocity),
+        Some(factor) if is_damped => slowed_at(factor, all, &velocity),
         _ => all,
     };
     let inverse = inverse_inertia(row.radius(), row.inverse_mass());

@@ -120,6 +120,8 @@ pub struct ZoneTables {
     pub rows: Address,
     /// Where each particle is now, by where it was when all were sent, four bytes.
     pub rows_now: Address,
+    /// From which step of the launch on each particle is free, by where it was when all were sent, four bytes; none where nothing slows particles besides contacts.
+    pub free_from: Address,
 }
 
 /// A block of slots.

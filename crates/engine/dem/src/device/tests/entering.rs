@@ -48,6 +48,20 @@ fn drawn(seed: u64) -> (Setup, Vec<Entry>) {
             Entry { time, inlet: 0, particle, clump: None, turn: None, cluster: 0 }
         })
         .collect();
+    if random.below(3) == 0 {
+        let law = [DragLaw::Stokes, DragLaw::SchillerNaumann][random.below(2)];
+        let viscosity = [1.8e-5, 1e-2][random.below(2)];
+        setup.drag = Some(Drag {
+            law,
+            viscosity,
+            density: 900.0 * random.next(),
+            velocity: Vec3::x(),
+            buoyancy: random.below(2) == 0,
+        });
+    }
+    if random.below(4) == 0 {
+        setup.local_damping = Some(0.6 * random.next());
+    }
     (setup, entries)
 }
 
