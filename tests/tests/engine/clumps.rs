@@ -156,7 +156,7 @@ fn intermediate_axis_turns_over() {
 #[test]
 fn clump_of_one_sphere_is_a_sphere() {
     for law in LAWS {
-        let path = |clump: bool| {
+        let path = |as_clump: bool| {
             let mut setup = with_friction(empty(law, 0.6), 0.4);
             setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.1));
             setup.gravity.z = -9.81;
@@ -165,7 +165,7 @@ fn clump_of_one_sphere_is_a_sphere() {
             let mut ball = grain(1, Vec3::new(0.0, 0.0, 0.03));
             (ball.velocity, ball.spin) = (Vec3::new(0.4, 0.0, -0.5), Vec3::new(20.0, 10.0, 30.0));
             setup.particles = vec![other];
-            if clump {
+            if as_clump {
                 let one = Body { velocity: ball.velocity, spin: ball.spin, ..body(1, ball.position) };
                 let sphere = clump(&[(Vec3::new(3.0, 1.0, 2.0), 0.01)]);
                 setup.clumps = Clumps { shapes: vec![sphere], placed: vec![one], entries: vec![] };

@@ -4,7 +4,7 @@ use super::servo::{SIDE, filled_box};
 use dem::setup::*;
 use dem::{ServoReport, Setup, Simulation};
 use geom::Vec3;
-use grainpipe_tests::setups::{HOOKE, Law, empty, grain, plane, run_until, with_friction};
+use grainpipe_tests::setups::{HOOKE, Law, empty, grain, plane, run_until};
 
 /// When the lid begins to move [s].
 const SHEAR: f64 = 0.4;

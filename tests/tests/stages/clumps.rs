@@ -2,7 +2,7 @@
 
 use super::passages;
 use grainpipe_tests::recorded::tables;
-use grainpipe_tests::scenes::{ABOVE, AT, SINTER};
+use grainpipe_tests::scenes::{ABOVE, AT, SINTER, folder};
 use grainpipe_tests::tools::{line, succeed, tool};
 use record::topic::CROSSING_CONTACTS;
 use stages::outlet::contact::{ContactRow, from_table};
@@ -57,8 +57,7 @@ material = "sinter"
 "#;
 
 pub fn clumped(options: &str) -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("plant.toml"), SINTER.toml() + ABOVE + CLUMPS).unwrap();
+    let folder = folder(&[("plant.toml", SINTER.toml() + ABOVE + CLUMPS)]);
     let cut =
         |keep: &str| format!("stage-split plant.toml --at {AT} {options} --keep {keep}stream -o {keep}.toml");
     let done = line(folder.path(), &format!("{} && {}", cut("up"), cut("down")));

@@ -2,16 +2,15 @@
 
 use super::text;
 use grainpipe_tests::recorded::{frames, tables};
-use grainpipe_tests::scenes::AT;
+use grainpipe_tests::scenes::{AT, folder};
 use grainpipe_tests::tools::{line, succeed, tool};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 fn plant() -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("plant.toml"), text()).unwrap();
+    let folder = folder(&[("plant.toml", text())]);
     for (keep, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
         let cut = ["plant.toml", "--at", AT, "--keep", keep, "--motion", "recorded", "-o", file];
         succeed(folder.path(), "stage-split", &cut);

@@ -74,7 +74,7 @@ impl<'a, S: Show> Chosen<'a, S> {
         }
     }
 
-    /// Rows of the wanted grains; `None` where the table has none of the fields and is shown whole.
+    /// Rows of the wanted grains; `None` where the table lacks all of the fields and is shown whole.
     fn chosen(&mut self, kinds: &[String], table: &Table) -> Result<Option<Vec<u32>>, ViewError> {
         let mut wanted: Option<Vec<bool>> = None;
         for (only, found) in self.only.iter().zip(&mut self.found) {
