@@ -1,47 +1,11 @@
 //! One impact, and any scene, on `dem-run` and on `dem-lammps`.
 
+use crate::recorded::{column, frames};
 use crate::scenes::folder;
 use crate::tools::succeed;
 use std::f64::consts::PI;
-use std::fs::File;
 use std::path::Path;
 use stream::Table;
-use stream::mcap::{Event, Reader};
-
-/// Tables of the frames of a run.
-///
-/// # Panics
-/// When it is not whole.
-pub fn frames(path: &Path) -> Vec<Table> {
-    frames_of(path, "/particles")
-}
-
-/// The tables of a topic of a run, in the order of time.
-///
-/// # Panics
-/// When the run is missing or broken.
-pub fn frames_of(path: &Path, wanted: &str) -> Vec<Table> {
-    let mut all = Vec::new();
-    for event in Reader::new(File::open(path).expect("the run is there")) {
-        if let Event::Points { topic, table, .. } = event.expect("the run is whole")
-            && topic == wanted
-        {
-            all.push(table);
-        }
-    }
-    all
-}
-
-/// A column of a frame, in the order of ids.
-///
-/// # Panics
-/// When the column is missing.
-pub fn column(frame: &Table, name: &str) -> Vec<f64> {
-    let get = |name: &str| frame.get(name).expect("the column is there").to_f64();
-    let mut rows: Vec<(f64, f64)> = get("id").into_iter().zip(get(name)).collect();
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    rows.into_iter().map(|row| row.1).collect()
-}
 
 /// Runs the scene `s.toml` of a folder on both engines, ours with forces sampled at instants and each contact by itself.
 ///

@@ -11,6 +11,8 @@ pub mod metamorphic;
 pub mod normals;
 pub mod page;
 pub mod plots;
+pub mod recorded;
+pub mod same_bits;
 pub mod scenes;
 pub mod setups;
 pub mod sphere_walls;

@@ -1,7 +1,7 @@
 //! Small setups for laws with closed answers.
 
 use dem::setup::*;
-use geom::{Plane, Vec3};
+use geom::{Moments, Plane, Vec3};
 
 /// A normal law with its numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,6 +90,17 @@ pub fn lattice([x, y, z]: [u32; 3], centre: Vec3) -> Vec<Particle> {
     let half = Vec3::new(f64::from(x - 1), f64::from(y - 1), f64::from(z - 1)) * 0.5;
     let at = |k: u32| Vec3::new(f64::from(k % x), f64::from(k / x % y), f64::from(k / x / y));
     (0..x * y * z).map(|k| grain(k, centre + (at(k) - half) * 0.021)).collect()
+}
+
+/// A clump whose mass and moments of inertia are the sums over its spheres: centre [m], radius [m].
+pub fn clump(spheres: &[(Vec3, f64)]) -> ClumpShape {
+    ClumpShape::new("clump", 0, spheres, &Moments::of_sum(spheres))
+}
+
+/// Two spheres of radius 10 mm, 12 mm apart, along x.
+pub fn dumbbell() -> ClumpShape {
+    let at = |x: f64| (Vec3::new(x, 0.0, 0.0), 0.01);
+    clump(&[at(-0.006), at(0.006)])
 }
 
 /// A grain of radius 10 mm at rest.

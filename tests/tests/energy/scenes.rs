@@ -3,9 +3,9 @@
 use dem::Setup;
 use dem::setup::*;
 use geom::mesh::TriMesh;
-use geom::{Moments, Plane, Vec3};
+use geom::{Plane, Vec3};
 use grainpipe_tests::normals::{NORMALS, Normal};
-use grainpipe_tests::setups::{bond, grain, lattice, plane, with_friction};
+use grainpipe_tests::setups::{bond, clump, dumbbell, grain, lattice, plane, with_friction};
 
 /// A scene and its name.
 pub struct Scene {
@@ -239,20 +239,10 @@ fn waves() -> TriMesh {
     TriMesh::new(vertices, faces).expect("sound")
 }
 
-/// Two spheres, 12 mm apart.
-pub fn dumbbell() -> ClumpShape {
-    let at = |x: f64| (Vec3::new(x, 0.0, 0.0), 0.01);
-    shape(&[at(-0.006), at(0.006)])
-}
-
 /// Three spheres, no two moments of inertia alike.
 pub fn boomerang() -> ClumpShape {
     let at = |x: f64, y: f64, r: f64| (Vec3::new(x, y, 0.0), r);
-    shape(&[at(0.0, 0.0, 0.01), at(0.012, 0.0, 0.009), at(0.0, 0.01, 0.007)])
-}
-
-fn shape(spheres: &[(Vec3, f64)]) -> ClumpShape {
-    ClumpShape::new("clump", 0, spheres, &Moments::of_sum(spheres))
+    clump(&[at(0.0, 0.0, 0.01), at(0.012, 0.0, 0.009), at(0.0, 0.01, 0.007)])
 }
 
 /// A clump instead of each grain.

@@ -51,6 +51,6 @@ pub fn all() -> Vec<Scene> {
         scene("hertz", cell(Law::Hertz)),
         scene("local damping", damped),
         scene("bonds", bonded),
-        scene("clumps", crate::scenes::tumbling(clumps, crate::scenes::dumbbell())),
+        scene("clumps", crate::scenes::tumbling(clumps, grainpipe_tests::setups::dumbbell())),
     ]
 }

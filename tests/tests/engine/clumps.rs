@@ -3,11 +3,10 @@
 mod beds;
 
 use dem::setup::*;
-use dem::simd::Width;
 use dem::{ClumpState, Energy, Setup, Simulation};
 use geom::{Moments, Vec3};
 use grainpipe_tests::setups::{
-    HOOKE, LAWS, Law, empty, grain, particles, plane, rolling, run_until, with_friction,
+    HOOKE, LAWS, Law, clump, dumbbell, empty, grain, particles, plane, rolling, run_until, with_friction,
 };
 use nalgebra::{Rotation3, Unit, UnitQuaternion};
 use scene::advice::explain_setup_error;
@@ -26,21 +25,10 @@ fn energy(sim: &mut Simulation) -> Energy {
     sim.energy().expect("no guard trips in a test of a law")
 }
 
-/// A clump of spheres, its mass that of their sum.
-fn shape(spheres: &[(Vec3, f64)]) -> ClumpShape {
-    ClumpShape::new("clump", 0, spheres, &Moments::of_sum(spheres))
-}
-
-/// Two spheres of 10 mm, 12 mm apart, along x.
-fn dumbbell() -> ClumpShape {
-    let at = |x: f64| (Vec3::new(x, 0.0, 0.0), 0.01);
-    shape(&[at(-0.006), at(0.006)])
-}
-
 /// Three spheres, no two moments of inertia alike.
 fn boomerang() -> ClumpShape {
     let at = |x: f64, y: f64, r: f64| (Vec3::new(x, y, 0.0), r);
-    shape(&[at(0.0, 0.0, 0.01), at(0.02, 0.0, 0.009), at(0.0, 0.013, 0.007)])
+    clump(&[at(0.0, 0.0, 0.01), at(0.02, 0.0, 0.009), at(0.0, 0.013, 0.007)])
 }
 
 /// A cube of 20 mm with a sphere of 3 mm at every corner.
@@ -168,7 +156,7 @@ fn intermediate_axis_turns_over() {
 #[test]
 fn clump_of_one_sphere_is_a_sphere() {
     for law in LAWS {
-        let path = |clump: bool| {
+        let path = |as_clump: bool| {
             let mut setup = with_friction(empty(law, 0.6), 0.4);
             setup.contacts.iter_mut().for_each(|c| c.set("rolling_resistance", 0.1));
             setup.gravity.z = -9.81;
@@ -177,9 +165,9 @@ fn clump_of_one_sphere_is_a_sphere() {
             let mut ball = grain(1, Vec3::new(0.0, 0.0, 0.03));
             (ball.velocity, ball.spin) = (Vec3::new(0.4, 0.0, -0.5), Vec3::new(20.0, 10.0, 30.0));
             setup.particles = vec![other];
-            if clump {
+            if as_clump {
                 let one = Body { velocity: ball.velocity, spin: ball.spin, ..body(1, ball.position) };
-                let sphere = shape(&[(Vec3::new(3.0, 1.0, 2.0), 0.01)]);
+                let sphere = clump(&[(Vec3::new(3.0, 1.0, 2.0), 0.01)]);
                 setup.clumps = Clumps { shapes: vec![sphere], placed: vec![one], entries: vec![] };
             } else {
                 setup.particles.push(ball);

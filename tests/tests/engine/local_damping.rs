@@ -1,9 +1,9 @@
 //! Local damping against closed forms, and the mean unbalanced force.
 
 use dem::setup::*;
-use dem::simd::Width;
 use dem::{Setup, Simulation};
 use geom::Vec3;
+use grainpipe_tests::same_bits::{Run, particle_bits, steps};
 use grainpipe_tests::setups::{
     HOOKE, LAWS, Law, empty, grain, lattice, particles, plane, run_until, with_friction,
 };
@@ -154,36 +154,13 @@ fn its_energy_is_in_the_ledger() {
     }
 }
 
-fn bits(sim: &mut Simulation, steps: u64) -> Vec<u64> {
-    (0..steps).for_each(|_| sim.step().expect("within the guards"));
-    let all = particles(sim).into_iter().flat_map(|p| [p.position, p.velocity, p.spin]);
-    all.flat_map(|v| [v.x, v.y, v.z]).map(f64::to_bits).collect()
-}
-
 #[test]
 fn same_bits_for_widths_threads_and_resumed_runs() {
+    let look = |sim: &mut Simulation| {
+        sim.unbalanced().expect("sound");
+    };
     let setup = || heap(Law::Hertz);
-    let whole = bits(&mut Simulation::new(setup()).expect("sound"), 3000);
-    for width in Width::available() {
-        assert!(
-            bits(&mut Simulation::with_width(setup(), width).expect("sound"), 3000) == whole,
-            "{width:?}"
-        );
-    }
-    for threads in [1, 3] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        let run = || bits(&mut Simulation::new(setup()).expect("sound"), 3000);
-        assert!(pool.install(run) == whole, "{threads}");
-    }
-    for looked in [false, true] {
-        let mut first = Simulation::new(setup()).expect("sound");
-        (0..1700).for_each(|_| first.step().expect("within the guards"));
-        if looked {
-            first.unbalanced().expect("sound");
-        }
-        let mut second = Simulation::resume(setup(), first.checkpoint().to_static()).expect("the same setup");
-        assert!(bits(&mut second, 1300) == whole, "looked at: {looked}");
-    }
+    Run { setup: &setup, parts: [&steps(1700), &steps(1300)], look: &look, bits: &particle_bits }.check();
 }
 
 /// One grain that overlaps a plane by half of what its weight needs: |k δ − m g|/k δ = 1; at rest 0; in the air there is none.

@@ -1,9 +1,9 @@
 //! Walls on springs: against closed forms, and against the two coupled equations solved finely.
 
 use dem::setup::*;
-use dem::simd::Width;
 use dem::{Halt, Setup, Simulation};
 use geom::Vec3;
+use grainpipe_tests::same_bits::{Run, steps, wall_bits};
 use grainpipe_tests::setups::{
     HOOKE, Law, empty, grain, lattice, particles, plane, run_until, with_friction,
 };
@@ -152,36 +152,13 @@ fn energy_of_the_wall_is_in_the_ledger() {
     }
 }
 
-fn bits(sim: &mut Simulation, steps: u64) -> Vec<u64> {
-    (0..steps).for_each(|_| sim.step().expect("within the guards"));
-    let walls = sim.wall_forces().expect("sound");
-    let walls = walls.iter().flat_map(|w| [w.force, w.shift]);
-    let all: Vec<Vec3> =
-        particles(sim).iter().flat_map(|p| [p.position, p.velocity, p.spin]).chain(walls).collect();
-    all.iter().flat_map(|v| [v.x, v.y, v.z]).map(f64::to_bits).collect()
-}
-
 #[test]
 fn same_bits_for_widths_threads_and_resumed_runs() {
+    let look = |sim: &mut Simulation| {
+        sim.energy().expect("sound");
+    };
     let setup = || shaken(Law::Hertz);
-    let whole = bits(&mut Simulation::new(setup()).expect("sound"), 3000);
-    for width in Width::available() {
-        assert!(
-            bits(&mut Simulation::with_width(setup(), width).expect("sound"), 3000) == whole,
-            "{width:?}"
-        );
-    }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("a pool");
-    assert!(pool.install(|| bits(&mut Simulation::new(setup()).expect("sound"), 3000)) == whole);
-    for looked in [false, true] {
-        let mut first = Simulation::new(setup()).expect("sound");
-        (0..1700).for_each(|_| first.step().expect("within the guards"));
-        if looked {
-            first.energy().expect("sound");
-        }
-        let mut second = Simulation::resume(setup(), first.checkpoint().to_static()).expect("the same setup");
-        assert!(bits(&mut second, 1300) == whole, "looked at: {looked}");
-    }
+    Run { setup: &setup, parts: [&steps(1700), &steps(1300)], look: &look, bits: &wall_bits }.check();
 }
 
 /// A wall that is too light for its contacts, or too fast, stops the run; a spring whose period the step skips is refused.

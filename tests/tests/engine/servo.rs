@@ -1,12 +1,13 @@
 //! Walls that follow a force, and motions that start and stop.
 
 use dem::setup::*;
-use dem::simd::Width;
 use dem::{Halt, Partner, Setup, Simulation};
 use geom::{Plane, Vec3, mesh::TriMesh};
+use grainpipe_tests::same_bits::{Run, steps, wall_bits};
 use grainpipe_tests::setups::{HOOKE, LAWS, Law, empty, grain, particles, plane, run_until, with_friction};
 
-const SIDE: f64 = 0.1;
+/// Length of the box [m].
+pub const SIDE: f64 = 0.1;
 
 fn side(axis: usize, high: bool) -> Wall {
     let normal = Vec3::ith(axis, if high { -1.0 } else { 1.0 });
@@ -19,13 +20,11 @@ fn servo(direction: Vec3, force: f64) -> Servo {
     Servo::force(direction, force, 0.05)
 }
 
-/// 64 grains of three sizes in a box, its lid pressing with `force` [N].
-fn press(law: Law, force: f64) -> Setup {
+/// 64 grains of three sizes in a box of six walls.
+pub fn filled_box(law: Law) -> Setup {
     let mut setup = with_friction(empty(law, 0.3), 0.3);
-    setup.ledger = true;
     setup.step = Step::Auto(0.3);
     setup.walls = (0..3).flat_map(|axis| [side(axis, false), side(axis, true)]).collect();
-    setup.walls[5].servo = Some(servo(-Vec3::z(), force));
     setup.particles = (0..64u32)
         .map(|k| {
             let at = |n: u32| 0.0125 + 0.025 * f64::from(n);
@@ -35,6 +34,14 @@ fn press(law: Law, force: f64) -> Setup {
             p
         })
         .collect();
+    setup
+}
+
+/// 64 grains of three sizes in a box, its lid pressing with `force` [N].
+fn press(law: Law, force: f64) -> Setup {
+    let mut setup = filled_box(law);
+    setup.ledger = true;
+    setup.walls[5].servo = Some(servo(-Vec3::z(), force));
     setup
 }
 
@@ -106,42 +113,13 @@ fn speed_limit_holds() {
     assert!((lid.shift.z + 0.05 * sim.time()).abs() < 1e-9, "{lid:?}");
 }
 
-/// Every bit of particles and walls.
-fn bits(sim: &mut Simulation, steps: u64) -> Vec<u64> {
-    for _ in 0..steps {
-        sim.step().expect("within the guards");
-    }
-    let walls = sim.wall_forces().expect("sound");
-    let walls = walls.iter().flat_map(|w| [w.force, w.shift]);
-    let all: Vec<Vec3> =
-        particles(sim).iter().flat_map(|p| [p.position, p.velocity, p.spin]).chain(walls).collect();
-    all.iter().flat_map(|v| [v.x, v.y, v.z]).map(f64::to_bits).collect()
-}
-
 #[test]
 fn same_bits_for_widths_threads_and_resumed_runs() {
+    let look = |sim: &mut Simulation| {
+        particles(sim);
+    };
     let setup = || press(Law::Hertz, 20.0);
-    let whole = bits(&mut Simulation::new(setup()).expect("sound"), 6000);
-    for width in Width::available() {
-        let mut sim = Simulation::with_width(setup(), width).expect("sound");
-        assert!(bits(&mut sim, 6000) == whole, "{width:?}");
-    }
-    for threads in [1, 3, 7] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        assert!(
-            pool.install(|| bits(&mut Simulation::new(setup()).expect("sound"), 6000)) == whole,
-            "{threads}"
-        );
-    }
-    for looked in [false, true] {
-        let mut first = Simulation::new(setup()).expect("sound");
-        (0..3500).for_each(|_| first.step().expect("within the guards"));
-        if looked {
-            particles(&mut first);
-        }
-        let mut second = Simulation::resume(setup(), first.checkpoint().to_static()).expect("the same setup");
-        assert!(bits(&mut second, 2500) == whole, "looked at: {looked}");
-    }
+    Run { setup: &setup, parts: [&steps(3500), &steps(2500)], look: &look, bits: &wall_bits }.check();
 }
 
 /// A grain between two walls that both push too hard stops the run, and the message names a wall.

@@ -1,40 +1,22 @@
 //! Servos that hold their force while a specimen is sheared.
 
+use super::servo::{SIDE, filled_box};
 use dem::setup::*;
 use dem::{ServoReport, Setup, Simulation};
-use geom::{Plane, Vec3};
-use grainpipe_tests::setups::{HOOKE, Law, empty, grain, plane, run_until, with_friction};
+use geom::Vec3;
+use grainpipe_tests::setups::{HOOKE, Law, empty, grain, plane, run_until};
 
-const SIDE: f64 = 0.1;
 /// When the lid begins to move [s].
 const SHEAR: f64 = 0.4;
 
-fn side(axis: usize, high: bool) -> Wall {
-    let normal = Vec3::ith(axis, if high { -1.0 } else { 1.0 });
-    let point = if high { Vec3::repeat(SIDE) } else { Vec3::zeros() };
-    let name = format!("{}{}", ["x", "y", "z"][axis], if high { '+' } else { '-' });
-    Wall { name, shape: WallShape::Plane(Plane { point, normal }), ..plane(normal) }
-}
-
 /// 64 grains of three sizes in a box: two sides press with `force` [N], and the lid compresses at `rate` [1/s].
 fn triaxial(law: Law, force: f64, rate: f64) -> Setup {
-    let mut setup = with_friction(empty(law, 0.3), 0.3);
-    setup.step = Step::Auto(0.3);
-    setup.walls = (0..3).flat_map(|axis| [side(axis, false), side(axis, true)]).collect();
+    let mut setup = filled_box(law);
     for axis in 0..2 {
         setup.walls[2 * axis + 1].servo = Some(Servo::force(-Vec3::ith(axis, 1.0), force, 1.0));
     }
     setup.walls[5].motion =
         Motion { velocity: Vec3::z() * (-rate * SIDE), from: SHEAR, until: 10.0, ..Motion::still() };
-    setup.particles = (0..64u32)
-        .map(|k| {
-            let at = |n: u32| 0.0125 + 0.025 * f64::from(n);
-            let off = |n: u32| 1e-4 * (f64::from(k * n % 5) - 2.0);
-            let mut p = grain(k, Vec3::new(at(k % 4) + off(3), at(k / 4 % 4) + off(7), at(k / 16)));
-            p.radius = [0.0122, 0.011, 0.0105][k as usize % 3];
-            p
-        })
-        .collect();
     setup
 }
 

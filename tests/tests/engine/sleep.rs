@@ -1,9 +1,9 @@
 //! Sleep: what is at rest is passed over until it is disturbed, and the heap is the one that was computed in full.
 
 use dem::setup::*;
-use dem::simd::Width;
 use dem::{Setup, Simulation};
 use geom::Vec3;
+use grainpipe_tests::same_bits::{Run, particle_bits};
 use grainpipe_tests::setups::{HOOKE, LAWS, Law, empty, grain, particles, plane, run_until, with_friction};
 
 /// Grains of radius 10 mm that fall on a floor, 8 × 8 in layers, in a periodic box.
@@ -178,34 +178,15 @@ fn a_sleeper_whose_neighbour_is_no_longer_listed_wakes() {
 
 #[test]
 fn sleep_is_the_same_for_every_width_and_thread_and_across_a_checkpoint() {
-    let end = |mut sim: Simulation| {
-        run_until(&mut sim, 0.8);
-        let all = particles(&mut sim);
-        (
-            sim.asleep(),
-            all.iter()
-                .flat_map(|p| [p.position.x, p.position.z, p.velocity.z].map(f64::to_bits))
-                .collect::<Vec<_>>(),
-        )
+    let setup = || sleepy(filling(HOOKE, 5));
+    let parts: [&(dyn Fn(&mut Simulation) + Sync); 2] =
+        [&|sim| run_until(sim, 0.72), &|sim| run_until(sim, 0.8)];
+    let bits = |sim: &mut Simulation| (sim.asleep(), particle_bits(sim));
+    let look = |sim: &mut Simulation| {
+        particles(sim);
     };
-    let reference = end(simulation(sleepy(filling(HOOKE, 5))));
-    assert!(reference.0 > 0, "no particle sleeps");
-    for width in Width::available() {
-        let sim = Simulation::with_width(sleepy(filling(HOOKE, 5)), width).expect("sound");
-        assert!(end(sim) == reference, "{width:?}");
-    }
-    for threads in [1, 2, 3, 7] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        assert!(
-            pool.install(|| end(simulation(sleepy(filling(HOOKE, 5))))) == reference,
-            "{threads} threads"
-        );
-    }
-    let mut first = simulation(sleepy(filling(HOOKE, 5)));
-    run_until(&mut first, 0.72);
-    let state = first.checkpoint().to_static();
-    let resumed = Simulation::resume(sleepy(filling(HOOKE, 5)), state).expect("the same setup");
-    assert!(end(resumed) == reference, "resumed");
+    let (asleep, _) = Run { setup: &setup, parts, look: &look, bits: &bits }.check();
+    assert!(asleep > 0, "no particle sleeps");
 }
 
 /// A heap that sleeps goes on bit for bit when it is resumed, through the impact that wakes it.

@@ -1,9 +1,9 @@
 //! Periodic cells that are strained, or follow a stress.
 
 use dem::setup::*;
-use dem::simd::Width;
 use dem::{CellReport, Setup, SetupError, Simulation};
 use geom::Vec3;
+use grainpipe_tests::same_bits::{Run, particle_bits, steps};
 use grainpipe_tests::setups::{HOOKE, LAWS, Law, bond, empty, grain, particles, run_until, with_friction};
 
 /// Stress along x and y [Pa].
@@ -125,12 +125,10 @@ fn stress_on_clumps_is_held() {
     }
 }
 
-fn bits(mut sim: Simulation, steps: u64) -> Vec<u64> {
-    (0..steps).for_each(|_| sim.step().expect("within the guards"));
-    let cell = report(&mut sim);
-    let of = |p: &Particle| [p.position, p.velocity, p.spin].map(|v| [v.x, v.y, v.z]).concat();
-    let numbers = particles(&mut sim).iter().flat_map(of).collect::<Vec<f64>>();
-    numbers.into_iter().chain(cell.strain.iter().chain(&cell.stress).copied()).map(f64::to_bits).collect()
+fn bits(sim: &mut Simulation) -> Vec<u64> {
+    let cell = report(sim);
+    let numbers = cell.strain.iter().chain(&cell.stress).copied().map(f64::to_bits).collect();
+    [particle_bits(sim), numbers].concat()
 }
 
 /// Bonded grains that follow a stress, a path and a rate; so many that threads share them.
@@ -150,30 +148,13 @@ fn crowd() -> Setup {
 
 #[test]
 fn same_bits_for_widths_threads_order_and_resume() {
-    let new = || Simulation::new(crowd()).expect("sound");
-    let reference = bits(new(), 500);
-    for width in Width::available() {
-        assert!(bits(Simulation::with_width(crowd(), width).expect("sound"), 500) == reference, "{width:?}");
-    }
-    for threads in [1, 3] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        assert!(pool.install(|| bits(new(), 500)) == reference, "{threads} threads");
-    }
+    let look = |sim: &mut Simulation| {
+        report(sim);
+    };
+    let run = Run { setup: &crowd, parts: [&steps(211), &steps(289)], look: &look, bits: &bits };
     let mut shuffled = crowd();
     shuffled.particles.reverse();
-    assert!(bits(Simulation::new(shuffled).expect("sound"), 500) == reference, "another order");
-    for looked in [false, true] {
-        let mut first = new();
-        (0..211).for_each(|_| first.step().expect("within the guards"));
-        if looked {
-            report(&mut first);
-        }
-        let saved = first.checkpoint().to_static();
-        assert!(
-            bits(Simulation::resume(crowd(), saved).expect("the same setup"), 289) == reference,
-            "{looked}"
-        );
-    }
+    assert!(run.end(Simulation::new(shuffled).expect("sound")) == run.check(), "another order");
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! A full disk: every tool says so and leaves nothing that looks whole; what a run had written until then stays and resumes.
 
-use crate::pipes::plant;
+use crate::pipes::{COMMANDS, plant};
 use grainpipe_tests::findings::{Case, case};
+use grainpipe_tests::recorded::frames;
 use grainpipe_tests::tools::{Done, line, succeed, tool};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,18 +10,6 @@ use std::process::Command;
 
 const FULL: Case = case("Faults", "the disk is full: a message, code 1, and no file that looks whole");
 const KEPT: Case = case("Faults", "the disk is full: the output so far is kept and resumes");
-
-const COMMANDS: [&str; 9] = [
-    "cloud-crop cloud.xyz",
-    "cloud-fill cloud.xyz",
-    "bluenoise-sample cloud.xyz --spacing 0.012",
-    "wallgen cloud.xyz --roughness 0.001 --radius uniform",
-    "dem-run s.toml",
-    "stage-replay run.mcap",
-    "stage-split plant.toml --at 0,0,0.0204,0,0,-1 --keep upstream",
-    "dem-measure run.mcap --energy",
-    "dem-view run.mcap",
-];
 
 fn said(done: &Done, command: &str) -> bool {
     let tool = command.split(' ').next().unwrap_or_default();
@@ -118,14 +107,7 @@ fn a_run_that_fills_the_disk_is_kept_and_goes_on_elsewhere() {
     assert_eq!(names(&disk.0), ["run.mcap.part"]);
     let done = succeed(folder, "dem-run", &["s.toml", "--resume", "disk/run.mcap.part", "-o", "rest.mcap"]);
     assert!(done.stderr.contains("frames"), "{}", done.stderr);
-    let last = |name: &str| {
-        let bytes = fs::read(folder.join(name)).expect("whole");
-        let points = |event| match event {
-            stream::mcap::Event::Points { topic, table, .. } if topic == "/particles" => Some(table),
-            _ => None,
-        };
-        stream::mcap::Reader::new(&bytes[..]).filter_map(|e| points(e.expect("whole"))).last()
-    };
+    let last = |name: &str| frames(&folder.join(name)).pop();
     let differs = last("rest.mcap") != last("run.mcap");
     KEPT.within(
         "last frame of the resumed run against the uninterrupted one",

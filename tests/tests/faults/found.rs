@@ -2,6 +2,7 @@
 
 use crate::samples;
 use grainpipe_tests::findings::{Case, case};
+use grainpipe_tests::scenes::folder;
 use std::error::Error;
 
 const CLAIMS: Case = case("Faults", "a file that claims more than it holds is refused and takes no memory");
@@ -193,8 +194,7 @@ fn state_with_a_text_longer_than_itself() {
 /// A first line of nothing but commas was a panic.
 #[test]
 fn particles_without_names() {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("p.csv"), ",\n1,2\n").expect("written");
+    let folder = folder(&[("p.csv", ",\n1,2\n")]);
     let toml = "[time]\nuntil = 1\n[[material]]\nname = \"a\"\ndensity = 1\nyoung = 1e7\npoisson = 0.2\n\
                 [[contact]]\nbetween = [\"*\", \"*\"]\nrestitution = 0.5\n[[particles]]\nmaterial = \"a\"\nsource = \"p.csv\"\n";
     let scene = scene::Scene::new("s.toml", toml.to_owned(), &[], folder.path()).expect("sound");

@@ -8,6 +8,19 @@ use tempfile::TempDir;
 
 const CLOSED: Case = case("Faults", "the reader closes the pipe: every tool ends silently with code 0");
 
+/// A command of each tool that writes a stream.
+pub const COMMANDS: [&str; 9] = [
+    "cloud-crop cloud.xyz",
+    "cloud-fill cloud.xyz",
+    "bluenoise-sample cloud.xyz --spacing 0.012",
+    "wallgen cloud.xyz --roughness 0.001 --radius uniform",
+    "dem-run s.toml",
+    "stage-replay run.mcap",
+    "stage-split plant.toml --at 0,0,0.0204,0,0,-1 --keep upstream",
+    "dem-measure run.mcap --energy",
+    "dem-view run.mcap",
+];
+
 /// A folder with a cloud of 40 000 points, walls, and a run whose output is longer than a pipe holds.
 pub fn plant() -> TempDir {
     let cloud: String = (0..40_000)
@@ -26,19 +39,7 @@ pub fn plant() -> TempDir {
 fn a_closed_pipe_ends_every_tool_quietly() {
     let folder = plant();
     let mut loud = 0u32;
-    for command in [
-        "cloud-crop cloud.xyz",
-        "cloud-fill cloud.xyz",
-        "bluenoise-sample cloud.xyz --spacing 0.012",
-        "wallgen cloud.xyz --roughness 0.001 --radius uniform",
-        "dem-run s.toml",
-        "stage-replay run.mcap",
-        "stage-split plant.toml --at 0,0,0.0204,0,0,-1 --keep upstream",
-        "dem-measure run.mcap --energy",
-        "dem-measure run.mcap --contacts",
-        "dem-view run.mcap",
-        "chute-scan",
-    ] {
+    for command in COMMANDS.into_iter().chain(["dem-measure run.mcap --contacts", "chute-scan"]) {
         // Closed after a few bytes, and before the first.
         for reader in ["head -c 100 > /dev/null", "true"] {
             let done = line(folder.path(), &format!("{command} -q | {reader}"));

@@ -1,7 +1,8 @@
 //! Bonds of beams on both engines, where LAMMPS has the package BPM: two grains that stretch, shear, bend and twist their bond, and a beam of grains.
 
 use crate::refusal;
-use grainpipe_tests::engines::{R, S, both_with, column, frames, frames_of};
+use grainpipe_tests::engines::{R, S, both_with};
+use grainpipe_tests::recorded::{column, frames, tables};
 use grainpipe_tests::scenes::{folder, write};
 use grainpipe_tests::tools::succeed;
 use std::process::Command;
@@ -124,7 +125,7 @@ fn a_bar_swings_as_in_dem_run_and_goes_on_from_a_state() {
     let off = worst(&ours, &theirs, "y") / swing;
     println!("a bar swings by {swing:.1e} m: {off:.1e} of it");
     assert!(swing > 1e-5 && off < 1e-4, "{off:e}");
-    let bonds = ["ours.mcap", "theirs.mcap"].map(|run| frames_of(&path.join(run), "/bonds"));
+    let bonds = ["ours.mcap", "theirs.mcap"].map(|run| tables(&path.join(run), "/bonds"));
     // Both dashpots differ in the fast motions of the first frames.
     for (names, most) in [
         (&["fx", "fy", "fz"][..], 2e-2),

@@ -1,7 +1,7 @@
 //! Bonds that break on both engines: at the same instant under the loads that LAMMPS has exactly, and what the grains do after that.
 
 use crate::bonds::{bpm, difference, off_by, scene, two_grains};
-use grainpipe_tests::engines::{column, frames, frames_of};
+use grainpipe_tests::recorded::{column, frames, tables};
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
 use std::path::Path;
@@ -22,7 +22,7 @@ fn cracks(path: &Path) -> Vec<(f64, f64)> {
         let [time, mode] = ["time", "mode"].map(|name| table.get(name).unwrap().to_f64());
         time.into_iter().zip(mode).collect()
     };
-    frames_of(&path.join("ours.mcap"), "/cracks").iter().flat_map(of).collect()
+    tables(&path.join("ours.mcap"), "/cracks").iter().flat_map(of).collect()
 }
 
 /// How much velocities change between the last two frames.
@@ -95,13 +95,13 @@ fn a_bar_of_uneven_bonds_breaks_into_the_same_pieces() {
     println!("a bar in {} pieces: {off:.1e}", broke.len() + 1);
     assert!((2..11).contains(&broke.len()), "{broke:?}");
     assert!(broke[0].0 < 1.8e-3 && off < 1e-4, "{off:e} {broke:?}");
-    let bonds = ["ours.mcap", "theirs.mcap"].map(|run| frames_of(&path.join(run), "/bonds"));
+    let bonds = ["ours.mcap", "theirs.mcap"].map(|run| tables(&path.join(run), "/bonds"));
     for name in ["id_i", "id_j", "broken", "mode", "tensile_strength", "shear_strength"] {
         assert!(off_by(&bonds, &[name]) < 1e-12, "{name}");
     }
     // The time of a break is that of the next frame.
     let every = 2e-3 / 50.0;
-    let theirs: Vec<f64> = frames_of(&path.join("theirs.mcap"), "/cracks")
+    let theirs: Vec<f64> = tables(&path.join("theirs.mcap"), "/cracks")
         .iter()
         .flat_map(|table| table.get("time").unwrap().to_f64())
         .collect();

@@ -1,7 +1,8 @@
 //! Rigid clumps on both engines: free flight, an oblique impact, a pile.
 
 use crate::{lmp, refusal};
-use grainpipe_tests::engines::{both, column, frames_of};
+use grainpipe_tests::engines::both;
+use grainpipe_tests::recorded::{column, tables};
 use grainpipe_tests::scenes::{folder, write};
 use grainpipe_tests::tools::{succeed, tool};
 use std::fs;
@@ -36,7 +37,7 @@ const FLOOR: &str = "[[wall]]\nname = \"floor\"\nplane = \"0,0,0,0,0,1\"\nmateri
 
 /// The tables of clumps of both engines.
 fn bodies(folder: &Path) -> [Vec<Table>; 2] {
-    ["ours.mcap", "theirs.mcap"].map(|run| frames_of(&folder.join(run), "/bodies"))
+    ["ours.mcap", "theirs.mcap"].map(|run| tables(&folder.join(run), "/bodies"))
 }
 
 /// Largest angle between the orientations of a clump on both engines [rad].
@@ -209,7 +210,7 @@ fn clumps_go_on_from_a_state() {
     };
     let read = |run: &str| {
         succeed(path, "dem-lammps", &["s.toml", "--read-dump", "deck/frames.dump", "-q", "-o", run]);
-        frames_of(&path.join(run), "/bodies")
+        tables(&path.join(run), "/bodies")
     };
     lammps(&[]);
     let whole = read("whole.mcap");

@@ -1,7 +1,7 @@
 //! Decks: what is written, that it runs by itself, and what is refused by name.
 
 use crate::{lmp, refusal};
-use grainpipe_tests::engines::frames;
+use grainpipe_tests::recorded::frames;
 use grainpipe_tests::scenes::{GLASS, Head, folder};
 use grainpipe_tests::tools::{succeed, tool};
 use std::fs;

@@ -132,5 +132,5 @@ fn a_signal_ends_the_run_in_order() {
     let id = child.id().to_string();
     assert!(Command::new("kill").args(["-TERM", &id]).status().unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(3));
-    assert_eq!(grainpipe_tests::engines::frames(&folder.path().join("run.mcap")).len(), 1);
+    assert_eq!(grainpipe_tests::recorded::frames(&folder.path().join("run.mcap")).len(), 1);
 }

@@ -1,7 +1,8 @@
 //! What contacts bear, read back from LAMMPS: contacts and forces on walls at each frame are those of dem-run.
 
 use crate::lmp;
-use grainpipe_tests::engines::{R, S, SLOW, both, frames_of, linear_time, reduced};
+use grainpipe_tests::engines::{R, S, SLOW, both, linear_time, reduced};
+use grainpipe_tests::recorded::tables;
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
 use std::fs;
@@ -62,7 +63,7 @@ fn contacts(table: &Table) -> Vec<([u64; 3], [f64; 10])> {
 fn agree(path: &Path, to: f64) {
     both(path, &[]);
     let [ours, theirs] = ["ours.mcap", "theirs.mcap"]
-        .map(|name| frames_of(&path.join(name), "/contacts").iter().map(contacts).collect::<Vec<_>>());
+        .map(|name| tables(&path.join(name), "/contacts").iter().map(contacts).collect::<Vec<_>>());
     assert!(ours.len() == 21 && ours[10].len() == 3, "{}: {:?}", ours.len(), ours[10]);
     let largest = |c: usize| ours.iter().flatten().map(|r| r.1[c].abs()).fold(0.0, f64::max);
     let force = largest(6).max(largest(7)).max(largest(8));
@@ -110,7 +111,7 @@ fn contacts_and_forces_on_walls_are_those_of_dem_run() {
     lammps.args(["-in", "run.in", "-log", "none"]).current_dir(path.join("deck"));
     assert!(lammps.output().unwrap().status.success());
     succeed(path, "dem-lammps", &["s.toml", "--read-dump", "deck/frames.dump", "-o", "read.mcap", "-q"]);
-    let of = |run: &str| frames_of(&path.join(run), "/contacts");
+    let of = |run: &str| tables(&path.join(run), "/contacts");
     assert!(of("read.mcap") == of("theirs.mcap"));
     fs::remove_file(path.join("deck/pairs.dump")).unwrap();
     let done = tool(path, "dem-lammps", &["s.toml", "--read-dump", "deck/frames.dump", "-o", "x.mcap"]);

@@ -1,14 +1,11 @@
 //! Many grains on both engines: the same until collisions make small differences large, and alike in the mean after that.
 
 use crate::lmp;
-use grainpipe_tests::engines::{both, column};
+use crate::stages::mean;
+use grainpipe_tests::engines::both;
+use grainpipe_tests::recorded::column;
 use grainpipe_tests::scenes::{GLASS, folder};
 use stream::Table;
-
-fn mean(frame: &Table, name: &str) -> f64 {
-    let all = column(frame, name);
-    all.iter().sum::<f64>() / all.len() as f64
-}
 
 /// Grains in a box: sizes, periodic sides, a floor.
 #[test]

@@ -1,7 +1,7 @@
 //! Runs that go on: a killed `dem-lammps --dir`, and a batch script that is submitted again, come to the frames of an undisturbed run.
 
 use crate::lmp;
-use grainpipe_tests::engines::{column, frames};
+use grainpipe_tests::recorded::{column, frames};
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{program, succeed, tool};
 use std::fs;

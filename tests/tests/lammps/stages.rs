@@ -1,7 +1,7 @@
 //! A stage downstream: the same inlet on both engines.
 
 use crate::{lmp, refusal};
-use grainpipe_tests::engines::{column, frames, frames_of};
+use grainpipe_tests::recorded::{column, frames, tables};
 use grainpipe_tests::scenes::{folder, write};
 use grainpipe_tests::tools::{line, succeed, tool};
 use std::fs;
@@ -65,7 +65,8 @@ fn plant(motion: &str) -> TempDir {
     plant
 }
 
-fn mean(frame: &Table, name: &str) -> f64 {
+/// Mean of a column.
+pub fn mean(frame: &Table, name: &str) -> f64 {
     let all = column(frame, name);
     all.iter().sum::<f64>() / all.len() as f64
 }
@@ -167,7 +168,7 @@ fn a_stage_downstream_reads_a_stream_to_its_end() {
     }
     println!("released from constant velocity: {most:.1e} of {:.1e}", 9.81 * step);
     let crossed = |run: &str| -> Vec<f64> {
-        frames_of(&path.join(run), "/crossings").iter().flat_map(|t| column(t, "id")).collect()
+        tables(&path.join(run), "/crossings").iter().flat_map(|t| column(t, "id")).collect()
     };
     let sorted = |mut ids: Vec<f64>| {
         ids.sort_by(f64::total_cmp);

@@ -2,9 +2,9 @@
 
 use super::simulation;
 use dem::setup::*;
-use dem::simd::Width;
 use dem::{Setup, Simulation};
 use geom::Vec3;
+use grainpipe_tests::same_bits::{Run, particle_bits};
 use grainpipe_tests::setups::{HOOKE, empty, grain, particles, plane, run_until, with_friction};
 
 /// Stiffness of loading k₁ [N/m].
@@ -87,11 +87,6 @@ fn pile() -> Setup {
     setup
 }
 
-fn bits(sim: &mut Simulation) -> Vec<u64> {
-    let of = |p: &Particle| [p.position, p.velocity, p.spin].map(|v| [v.x, v.y, v.z]).concat();
-    particles(sim).iter().flat_map(of).map(f64::to_bits).collect()
-}
-
 /// Plastic work is in the ledger: what comes in, goes out and stays add up.
 #[test]
 fn the_ledger_closes() {
@@ -106,16 +101,10 @@ fn the_ledger_closes() {
 /// Every width of lanes, and a run that is resumed, give the same bits.
 #[test]
 fn same_bits_in_lanes_and_resumed() {
-    let run = |width| {
-        let mut sim = Simulation::with_width(pile(), width).expect("sound");
-        run_until(&mut sim, 0.1);
-        bits(&mut sim)
+    let parts: [&(dyn Fn(&mut Simulation) + Sync); 2] =
+        [&|sim| run_until(sim, 0.06), &|sim| run_until(sim, 0.1)];
+    let look = |sim: &mut Simulation| {
+        particles(sim);
     };
-    let scalar = run(Width::Scalar);
-    assert!(Width::available().into_iter().all(|width| run(width) == scalar));
-    let mut first = simulation(pile());
-    run_until(&mut first, 0.06);
-    let mut resumed = Simulation::resume(pile(), first.checkpoint().to_static()).expect("the same setup");
-    run_until(&mut resumed, 0.1);
-    assert!(bits(&mut resumed) == scalar, "resumed");
+    Run { setup: &pile, parts, look: &look, bits: &particle_bits }.check();
 }

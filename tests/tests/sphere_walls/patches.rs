@@ -5,9 +5,11 @@ use crate::sphere_walls::plates::{still, touch};
 use dem::setup::*;
 use dem::simd::Width;
 use dem::{Setup, Simulation, mass};
-use geom::{Moments, Vec3};
+use geom::Vec3;
 use grainpipe_tests::findings::Case;
-use grainpipe_tests::setups::{Law, empty, grain, particles, plane, rolling, run_until, with_friction};
+use grainpipe_tests::setups::{
+    Law, clump, empty, grain, particles, plane, rolling, run_until, with_friction,
+};
 
 const NORMAL: Case =
     of_walls("a grain rebounds from a wall of spheres of any spacing with the restitution asked for");
@@ -236,10 +238,6 @@ fn corners_inside_one_wall_are_two_contacts() {
 
 /// So stiff that a clump hardly turns while it touches [Pa].
 const YOUNG: f64 = 1e9;
-
-fn clump(spheres: &[(Vec3, f64)]) -> ClumpShape {
-    ClumpShape::new("clump", 0, spheres, &Moments::of_sum(spheres))
-}
 
 /// Speed at which a clump leaves a plane, along the normal where it touched, over that of its approach.
 fn clump_rebound(law: Law, e: f64, spheres: &[(Vec3, f64)], turn: Vec3) -> f64 {

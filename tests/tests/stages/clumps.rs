@@ -1,13 +1,13 @@
 //! Rigid clumps, and what contacts remember, from the cut to the stage downstream.
 
 use super::passages;
-use grainpipe_tests::scenes::{ABOVE, AT, SINTER};
+use grainpipe_tests::recorded::tables;
+use grainpipe_tests::scenes::{ABOVE, AT, SINTER, folder};
 use grainpipe_tests::tools::{line, succeed, tool};
 use record::topic::CROSSING_CONTACTS;
 use stages::outlet::contact::{ContactRow, from_table};
 use std::fs;
 use std::path::Path;
-use stream::mcap::{Event, Reader};
 use tempfile::{TempDir, tempdir};
 
 /// Clumps and spheres fall through the plane z = 0 onto a floor.
@@ -57,8 +57,7 @@ material = "sinter"
 "#;
 
 pub fn clumped(options: &str) -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("plant.toml"), SINTER.toml() + ABOVE + CLUMPS).unwrap();
+    let folder = folder(&[("plant.toml", SINTER.toml() + ABOVE + CLUMPS)]);
     let cut =
         |keep: &str| format!("stage-split plant.toml --at {AT} {options} --keep {keep}stream -o {keep}.toml");
     let done = line(folder.path(), &format!("{} && {}", cut("up"), cut("down")));
@@ -67,13 +66,7 @@ pub fn clumped(options: &str) -> TempDir {
 }
 
 fn touches(path: &Path) -> Vec<ContactRow> {
-    let rows = |event: Event| match event {
-        Event::Points { topic, table, .. } if topic == CROSSING_CONTACTS => {
-            from_table("test", &table).unwrap()
-        }
-        _ => Vec::new(),
-    };
-    Reader::new(fs::File::open(path).unwrap()).flat_map(|e| rows(e.unwrap())).collect()
+    tables(path, CROSSING_CONTACTS).iter().flat_map(|table| from_table("test", table).unwrap()).collect()
 }
 
 /// Live and one after the other, the same bytes; all that comes is there, and is what fell.

@@ -12,6 +12,7 @@ mod paths;
 mod refused;
 mod replays;
 
+use grainpipe_tests::recorded::tables;
 use grainpipe_tests::scenes::{ABOVE, AT, SINTER, folder, write};
 use grainpipe_tests::tools::{line, succeed, tool};
 use grainpipe_tests::tree::root;
@@ -19,7 +20,6 @@ use stages::outlet::crossing::{CrossingRow, from_table};
 use std::fs;
 use std::path::Path;
 use stream::Table;
-use stream::mcap::{Event, Reader};
 use tempfile::{TempDir, tempdir};
 
 /// Grains fall through the plane z = 0 onto a floor.
@@ -47,24 +47,12 @@ fn plant_of(text: &str, files: &[(&str, &str)], options: &[&str]) -> TempDir {
 }
 
 fn passages(path: &Path) -> Vec<CrossingRow> {
-    let mut all = Vec::new();
-    for event in Reader::new(fs::File::open(path).unwrap()) {
-        if let Event::Points { topic, table, .. } = event.unwrap()
-            && topic == "/crossings"
-        {
-            all.extend(from_table("test", &table, 1).unwrap());
-        }
-    }
-    all
+    tables(path, "/crossings").iter().flat_map(|table| from_table("test", table, 1).unwrap()).collect()
 }
 
 /// The last table of a topic.
 fn last_of(path: &Path, of: &str) -> Option<Table> {
-    let pick = |e: Event| match e {
-        Event::Points { topic, table, .. } if topic == of => Some(table),
-        _ => None,
-    };
-    Reader::new(fs::File::open(path).unwrap()).filter_map(|e| pick(e.unwrap())).last()
+    tables(path, of).pop()
 }
 
 #[test]

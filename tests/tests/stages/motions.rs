@@ -3,18 +3,17 @@
 use super::{passages, text};
 use dem::setup::Particle;
 use geom::Vec3;
-use grainpipe_tests::scenes::AT;
+use grainpipe_tests::scenes::{AT, folder};
 use grainpipe_tests::tools::{line, succeed, tool};
 use stages::outlet::crossing::CrossingRow;
 use std::fs;
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
 
 /// Both stages with options of the cut, the upstream one done.
 fn stages(cut: &[&str]) -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("plant.toml"), text()).unwrap();
+    let folder = folder(&[("plant.toml", text())]);
     for (keep, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
         let split = ["plant.toml", "--at", AT, "--keep", keep, "-o", file];
         succeed(folder.path(), "stage-split", &[&split, cut].concat());

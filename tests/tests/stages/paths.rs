@@ -1,17 +1,16 @@
 //! Recorded paths from the cut to the stage downstream.
 
 use super::text;
-use grainpipe_tests::scenes::AT;
+use grainpipe_tests::recorded::{frames, tables};
+use grainpipe_tests::scenes::{AT, folder};
 use grainpipe_tests::tools::{line, succeed, tool};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use stream::mcap::{Event, Reader};
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 fn plant() -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("plant.toml"), text()).unwrap();
+    let folder = folder(&[("plant.toml", text())]);
     for (keep, file) in [("upstream", "up.toml"), ("downstream", "down.toml")] {
         let cut = ["plant.toml", "--at", AT, "--keep", keep, "--motion", "recorded", "-o", file];
         succeed(folder.path(), "stage-split", &cut);
@@ -21,15 +20,7 @@ fn plant() -> TempDir {
 
 /// Places of the last frame, by id.
 fn places(path: &Path) -> BTreeMap<u32, [f64; 3]> {
-    let mut last = None;
-    for event in Reader::new(fs::File::open(path).unwrap()) {
-        if let Event::Points { topic, table, .. } = event.unwrap()
-            && topic == "/particles"
-        {
-            last = Some(table);
-        }
-    }
-    let table = last.unwrap();
+    let table = frames(path).pop().unwrap();
     let column = |name: &str| table.get(name).unwrap().to_f64();
     let (ids, [x, y, z]) = (column("id"), ["x", "y", "z"].map(column));
     ids.iter().enumerate().map(|(k, id)| (*id as u32, [x[k], y[k], z[k]])).collect()
@@ -91,11 +82,7 @@ fn a_small_step_downstream_follows_the_same_paths() {
 
 /// Rows of the paths of a run.
 fn samples(path: &Path) -> usize {
-    let rows = |event: Event| match event {
-        Event::Points { topic, table, .. } if topic == "/crossings/paths" => table.rows(),
-        _ => 0,
-    };
-    Reader::new(fs::File::open(path).unwrap()).map(|e| rows(e.unwrap())).sum()
+    tables(path, "/crossings/paths").iter().map(|table| table.rows()).sum()
 }
 
 /// A run that a guard stops between two frames and the one that goes on from it have all samples between them.

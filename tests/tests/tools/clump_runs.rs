@@ -1,12 +1,11 @@
 //! What the run of a scene with rigid clumps says of them, and what another scene takes from it.
 
+use grainpipe_tests::recorded;
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use record::{ClumpRecord, metadata};
-use std::fs::File;
 use std::path::Path;
-use stream::mcap::{Event, Reader};
 use tempfile::TempDir;
 
 const SCENE: &str = r#"gravity = [0, 0, -9.81]
@@ -38,11 +37,8 @@ fn ran() -> TempDir {
 }
 
 fn shape(run: &Path) -> ClumpRecord {
-    let clumps = Reader::new(File::open(run).expect("a run")).find_map(|event| match event.expect("sound") {
-        Event::Metadata { name, map } if name == metadata::CLUMPS => Some(map),
-        _ => None,
-    });
-    ClumpRecord::from_map("run", &clumps.expect("clumps")).expect("sound").swap_remove(0)
+    let clumps = recorded::metadata(run, metadata::CLUMPS);
+    ClumpRecord::from_map("run", &clumps).expect("sound").swap_remove(0)
 }
 
 /// Moments of inertia are about axes: with these a reader has the tensor, here the sum of the spheres.

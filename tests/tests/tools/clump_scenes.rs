@@ -1,12 +1,10 @@
 //! Scenes with rigid clumps, as a user runs them.
 
+use grainpipe_tests::recorded::{frames, metadata, tables};
 use grainpipe_tests::tools::{succeed, tool};
 use grainpipe_tests::tree::root;
-use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::path::Path;
+use std::fs;
 use stream::Table;
-use stream::mcap::{Event, Reader};
 use tempfile::tempdir;
 
 /// A cube of 20 mm, its centre at (1, 2, 3) mm.
@@ -80,19 +78,6 @@ fn folder(scene: &str) -> tempfile::TempDir {
     folder
 }
 
-/// Frames of a topic, and the record of a name.
-fn read(run: &Path, topic: &str, record: &str) -> (Vec<Table>, BTreeMap<String, String>) {
-    let (mut tables, mut found) = (Vec::new(), BTreeMap::new());
-    for event in Reader::new(File::open(run).expect("the run")) {
-        match event.expect("whole") {
-            Event::Points { topic: t, table, .. } if t == topic => tables.push(table),
-            Event::Metadata { name, map } if name == record => found = map,
-            _ => {}
-        }
-    }
-    (tables, found)
-}
-
 fn column(table: &Table, name: &str) -> Vec<f64> {
     table.get(name).unwrap_or_else(|| panic!("column {name}")).to_f64()
 }
@@ -103,8 +88,7 @@ fn clumps_from_body_file_fill_and_faucet() {
     let folder = folder(SCENE);
     let run = folder.path().join("run.mcap");
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
-    let (frames, clumps) = read(&run, "/particles", "clumps");
-    let (bodies, _) = read(&run, "/bodies", "clumps");
+    let (frames, bodies, clumps) = (frames(&run), tables(&run, "/bodies"), metadata(&run, "clumps"));
     assert_eq!((frames.len(), bodies.len(), clumps.len()), (5, 5, 2));
     assert!(clumps["0"].contains("\"cube\"") && clumps["0"].contains("\"volume\":"), "{clumps:?}");
 
@@ -142,7 +126,7 @@ fn clumps_from_body_file_fill_and_faucet() {
     succeed(folder.path(), "dem-run", &["s.toml", "--until", "0.2", "-o", "half.mcap"]);
     succeed(folder.path(), "dem-run", &["s.toml", "--resume", "half.mcap", "-o", "rest.mcap"]);
     for topic in ["/particles", "/bodies"] {
-        let (whole, rest) = (read(&run, topic, "").0, read(&folder.path().join("rest.mcap"), topic, "").0);
+        let (whole, rest) = (tables(&run, topic), tables(&folder.path().join("rest.mcap"), topic));
         assert_eq!(whole.last(), rest.last(), "{topic} of the resumed run");
     }
     let done = succeed(folder.path(), "dem-run", &["s.toml", "--explain"]);
@@ -165,7 +149,7 @@ fn a_scanned_stone_becomes_a_clump_of_few_spheres_and_keeps_its_moments() {
     let record = |faces: &str| {
         let folder = folder(&scene(faces));
         succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
-        let text = read(&folder.path().join("run.mcap"), "/bodies", "clumps").1["0"].clone();
+        let text = metadata(&folder.path().join("run.mcap"), "clumps")["0"].clone();
         serde_json::from_str::<serde_json::Value>(&text).expect("a record")
     };
     let (whole, few) = (record(""), record("faces = 100"));
@@ -287,7 +271,7 @@ fn clumps_of_a_run_go_on_as_they_lie() {
     let done = succeed(folder.path(), "dem-run", &["next.toml", "-o", "next.mcap"]);
     assert!(!done.stderr.contains("warning"), "{}", done.stderr);
     for topic in ["/particles", "/bodies"] {
-        let (left, taken) = (read(&file("heap.mcap"), topic, "").0, read(&file("next.mcap"), topic, "").0);
+        let (left, taken) = (tables(&file("heap.mcap"), topic), tables(&file("next.mcap"), topic));
         let (left, taken) = (left.last().expect("a frame"), taken.first().expect("a frame"));
         assert_eq!(left.rows(), taken.rows(), "{topic}");
         for name in ["id", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"] {
@@ -299,7 +283,7 @@ fn clumps_of_a_run_go_on_as_they_lie() {
         "dem-run",
         &["s.toml", "--until", "0.6", "--resume", "heap.mcap", "-q", "-o", "on.mcap"],
     );
-    let (on, next) = (read(&file("on.mcap"), "/bodies", "").0, read(&file("next.mcap"), "/bodies", "").0);
+    let (on, next) = (tables(&file("on.mcap"), "/bodies"), tables(&file("next.mcap"), "/bodies"));
     let (on, next) = (on.last().expect("a frame"), next.last().expect("a frame"));
     let most = ["x", "y", "z"].map(|name| apart(on, next, name)).into_iter().fold(0.0, f64::max);
     assert!(most < 1e-10, "{most} m apart");

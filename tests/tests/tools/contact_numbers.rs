@@ -1,10 +1,9 @@
 //! Contact numbers of a pile, whatever the output interval: a contact that has ended is none of that instant.
 
+use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::succeed;
 use serde_json::Value;
-use std::fs;
 use std::path::Path;
-use tempfile::tempdir;
 
 /// Grains that fall onto a floor between walls; the 60 ms are the middle of the tumble, when contacts end all the time.
 const PILE: &str = r#"
@@ -51,8 +50,7 @@ fn last(json: &Value, name: &str) -> f64 {
 
 #[test]
 fn contacts_of_an_instant_do_not_depend_on_the_output_interval() {
-    let folder = tempdir().expect("a folder");
-    fs::write(folder.path().join("s.toml"), PILE).expect("written");
+    let folder = folder(&[("s.toml", PILE)]);
     let run = |name: &str, sets: &[&str]| {
         let sets = sets.iter().flat_map(|set| ["--set", set]);
         let arguments: Vec<&str> = ["s.toml", "-o", name].into_iter().chain(sets).collect();

@@ -2,6 +2,7 @@
 //!
 //! Callgrind adds instructions up by source line, inlined code included, so that a file tells whether anything of it ran. Instructions of the engine are the same in every run; those of the rest (reading, hashing) vary a little.
 
+use grainpipe_tests::scenes::folder;
 use grainpipe_tests::{skip, tools};
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -146,8 +147,7 @@ fn absent_effects_cost_no_instruction() {
     if !counts() {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder for the scenes");
-    std::fs::write(folder.path().join("lattice.csv"), lattice()).expect("the lattice can be written");
+    let folder = folder(&[("lattice.csv", lattice())]);
     let count = |name, contact| Count::of(folder.path(), name, contact);
     let without = count("frictionless", "");
     let friction = count("friction", "sliding_friction = 0.5");

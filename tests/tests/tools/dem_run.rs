@@ -10,12 +10,13 @@ mod settled;
 mod stopped;
 mod whole;
 
+use grainpipe_tests::recorded::{events, json};
 use grainpipe_tests::scenes::{Head, RUBS, folder};
 use grainpipe_tests::tools::{line, program, succeed, tool};
 use std::fs;
 use std::path::Path;
 use stream::Table;
-use stream::mcap::{Event, Reader};
+use stream::mcap::Event;
 use tempfile::TempDir;
 
 const HEAD: Head = Head {
@@ -33,18 +34,6 @@ fn poured() -> String {
 
 fn with(scene: &str) -> TempDir {
     folder(&[("s.toml", scene)])
-}
-
-/// Everything of a run that can be read, and whether its end is there.
-fn events(path: &Path) -> (Vec<Event>, bool) {
-    let mut events = Vec::new();
-    for event in Reader::new(fs::File::open(path).unwrap()) {
-        match event {
-            Ok(event) => events.push(event),
-            Err(_) => return (events, false),
-        }
-    }
-    (events, true)
 }
 
 /// The tables of a topic, with their times.
@@ -180,15 +169,8 @@ fn the_ledger_is_written_and_changes_nothing() {
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "with.mcap", "--set", "output.energy=true"]);
     let path = |name: &str| folder.path().join(name);
     assert!(frames(&path("with.mcap")) == frames(&path("without.mcap")));
-    let balances: Vec<f64> = events(&path("with.mcap"))
-        .0
-        .into_iter()
-        .filter_map(|e| match e {
-            Event::Bytes { topic, data, .. } if topic == "/energy" => Some(data),
-            _ => None,
-        })
-        .map(|data| serde_json::from_slice::<serde_json::Value>(&data).unwrap()["balance"].as_f64().unwrap())
-        .collect();
+    let energies = json(&path("with.mcap"), "/energy");
+    let balances: Vec<f64> = energies.iter().map(|energy| energy["balance"].as_f64().unwrap()).collect();
     assert_eq!(balances.len(), 13);
     let first = balances[0];
     assert!(balances.iter().all(|b| (b - first).abs() < 0.02 * first.abs()), "{balances:?}");

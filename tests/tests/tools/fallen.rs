@@ -1,8 +1,7 @@
 //! Measures of a surface leave out grains that have fallen past all walls.
 
+use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
-use std::fs;
-use tempfile::tempdir;
 
 /// A layer on a plate with a rim, and two grains beside it, which fall for 0.4 s.
 const SCENE: &str = r#"
@@ -35,9 +34,8 @@ material = "g"
 
 #[test]
 fn grains_that_fell_past_all_walls_make_no_bed_higher() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), SCENE).unwrap();
-    fs::write(folder.path().join("beside.csv"), "x,y,z,radius\n0.2,0,0,0.006\n0.25,0,0,0.006\n").unwrap();
+    let folder =
+        folder(&[("s.toml", SCENE), ("beside.csv", "x,y,z,radius\n0.2,0,0,0.006\n0.25,0,0,0.006\n")]);
     let run = tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(run.stderr.contains("2 of 62 particles have fallen past all walls"), "{}", run.stderr);

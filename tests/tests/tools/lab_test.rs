@@ -176,28 +176,11 @@ fn a_stone_is_crushed_in_another_orientation_for_each_seed() {
 fn printed_scenes_can_run() {
     let lab = lab();
     let path = lab.path();
-    succeed(
-        path,
-        "lab-test",
-        &[
-            "direct-shear",
-            "sand.toml",
-            "--grains",
-            "200",
-            "--stress",
-            "1000",
-            "--print-preparation",
-            "-o",
-            "p.toml",
-            "-q",
-        ],
-    );
+    let shear = ["direct-shear", "sand.toml", "--stress", "1000", "-q"];
+    let preparation = ["--grains", "200", "--print-preparation", "-o", "p.toml"];
+    succeed(path, "lab-test", &[&shear[..], &preparation].concat());
     succeed(path, "dem-run", &["p.toml", "--check", "-q"]);
-    succeed(
-        path,
-        "lab-test",
-        &["direct-shear", "sand.toml", "--stress", "1000", "--print-scene", "-o", "t.toml", "-q"],
-    );
+    succeed(path, "lab-test", &[&shear[..], &["--print-scene", "-o", "t.toml"]].concat());
     let scene = fs::read_to_string(path.join("t.toml")).unwrap();
     assert!(scene.contains("source = \"prepare.mcap\"") && scene.contains("name = \"upper\""), "{scene}");
 }

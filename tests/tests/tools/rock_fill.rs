@@ -1,5 +1,6 @@
 //! Stones of real shape: clumps with the mass of a mesh, and the chain from settled soil to a run with bonded stones.
 
+use grainpipe_tests::recorded::{frames, tables};
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
 use grainpipe_tests::tree::root;
@@ -7,7 +8,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use stream::mcap::{Event, Reader};
+use stream::Table;
 use tempfile::TempDir;
 
 fn json(folder: &Path, name: &str) -> Value {
@@ -70,20 +71,17 @@ fn soil_becomes_a_specimen_of_bonded_stones_and_runs() {
         &["rock-fill.toml", "--set", &density, "--set", "time.until=0.001", "-q", "-o", "run.mcap"],
     );
     // Bonds are within stones, and hold.
-    let bytes = fs::read(path.join("run.mcap")).unwrap();
-    let (mut bonds, mut cluster) = (0, BTreeMap::new());
-    for event in Reader::new(&bytes[..]) {
-        let Event::Points { topic, table, .. } = event.unwrap() else { continue };
-        let of = |name: &str| table.get(name).unwrap().to_f64();
-        if topic == "/particles" {
-            cluster = of("id").into_iter().map(|id| id as u32).zip(of("cluster")).collect();
-        } else if topic == "/bonds" {
-            let both = of("id_i").into_iter().zip(of("id_j"));
-            let own = |(i, j): (f64, f64)| [i, j].map(|id| cluster.get(&(id as u32)).copied().unwrap_or(0.0));
-            assert!(both.map(own).all(|[i, j]| i == j && i > 0.0));
-            bonds = table.rows();
-        }
+    let run = path.join("run.mcap");
+    let column = |table: &Table, name: &str| table.get(name).unwrap().to_f64();
+    let grains = frames(&run).pop().unwrap();
+    let cluster: BTreeMap<u64, f64> =
+        column(&grains, "id").into_iter().map(|id| id as u64).zip(column(&grains, "cluster")).collect();
+    let bonds = tables(&run, "/bonds").pop().unwrap();
+    for (i, j) in column(&bonds, "id_i").into_iter().zip(column(&bonds, "id_j")) {
+        let [i, j] = [i, j].map(|id| cluster.get(&(id as u64)).copied().unwrap_or(0.0));
+        assert!(i == j && i > 0.0);
     }
+    let bonds = bonds.rows();
     assert!(bonds > 100, "{bonds}");
 }
 
@@ -128,12 +126,7 @@ fn a_clump_has_the_mass_of_its_mesh() {
     let clump = fs::read_to_string(path.join("clump.toml")).unwrap();
     fs::write(path.join("s.toml"), scene.to_owned() + &clump).unwrap();
     succeed(path, "dem-run", &["s.toml", "-q", "-o", "run.mcap"]);
-    let bytes = fs::read(path.join("run.mcap")).unwrap();
-    let masses = Reader::new(&bytes[..]).filter_map(|event| match event.unwrap() {
-        Event::Points { topic, table, .. } if topic == "/bodies" => Some(table.get("mass").unwrap().get(0)),
-        _ => None,
-    });
-    let mass = masses.last().unwrap();
+    let mass = tables(&path.join("run.mcap"), "/bodies").pop().unwrap().get("mass").unwrap().get(0);
     assert!((mass / (2000.0 * 8.0 * volume) - 1.0).abs() < 1e-6, "{mass} {volume}");
 }
 

@@ -5,6 +5,7 @@ mod mixtures;
 mod refused;
 mod units;
 
+use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
 use record::{MaterialRecord, POISSON};
 use scene::Scene;
@@ -75,8 +76,7 @@ fn poissons_ratio_has_one_range() {
 
 #[test]
 fn overrides_change_one_key_and_wrong_ones_are_refused() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), SCENE).unwrap();
+    let folder = folder(&[("s.toml", SCENE)]);
     let check = |set: &str| tool(folder.path(), "dem-run", &["s.toml", "--check", "--set", set]);
     assert_eq!(check("contact.0.restitution=0.3").code, 0);
     assert_eq!(check("time.dt=1e-6").code, 0);
@@ -106,8 +106,7 @@ fn overrides_change_one_key_and_wrong_ones_are_refused() {
 
 #[test]
 fn explain_names_effects_their_bytes_and_the_limiting_pair() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), SCENE).unwrap();
+    let folder = folder(&[("s.toml", SCENE)]);
     let text =
         |arguments: &[&str]| String::from_utf8(succeed(folder.path(), "dem-run", arguments).stdout).unwrap();
     let with = text(&["s.toml", "--explain"]);
@@ -138,8 +137,7 @@ fn with_particles_of_a_file() -> String {
 
 #[test]
 fn particles_come_from_csv_and_walls_name_their_own_material() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("p.csv"), "id,x,y,z,radius\n7,0,0,0.1,0.01\n9,0.05,0,0.1,0.01\n").unwrap();
+    let folder = folder(&[("p.csv", "id,x,y,z,radius\n7,0,0,0.1,0.01\n9,0.05,0,0.1,0.01\n")]);
     fs::write(folder.path().join("s.toml"), with_particles_of_a_file()).unwrap();
     let done = succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
     assert!(done.stderr.contains("2 particles"), "{}", done.stderr);

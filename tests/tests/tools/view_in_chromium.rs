@@ -66,10 +66,7 @@ fn page() -> (TempDir, PathBuf) {
     }
     let walls = page.layer(Role::Walls, "walls.mcap");
     page.push(walls, 0.0, &floor()).expect("a whole table");
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("a run.html");
-    std::fs::write(&file, page.html().expect("a page")).expect("written");
-    (folder, file)
+    chromium::written("a run.html", &page)
 }
 
 #[test]
@@ -77,8 +74,7 @@ fn the_page_draws_plays_and_asks_for_nothing() {
     let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
     let (_folder, file) = page();
     let mut browser = Chromium::start(&program, &[]);
-    browser.open(&file);
-    browser.wait_for("window.grainpipe?.ready === true");
+    browser.show(&file);
     plays(&mut browser);
     draws(&mut browser);
     settings(&mut browser);
@@ -147,20 +143,13 @@ fn page_with_surfaces() -> (TempDir, PathBuf) {
     let walls = page.layer(Role::Walls, "paddle");
     page.moves(walls, motion);
     page.push(walls, 0.0, &floor()).expect("a whole table");
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("surfaces.html");
-    std::fs::write(&file, page.html().expect("a page")).expect("written");
-    (folder, file)
+    chromium::written("surfaces.html", &page)
 }
 
 /// Grains rest, so that all that changes in the picture is the wall.
 #[test]
 fn planes_and_meshes_are_drawn_move_hide_and_ask_for_nothing() {
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page_with_surfaces();
-    let mut browser = Chromium::start(&program, &[]);
-    browser.open(&file);
-    browser.wait_for("window.grainpipe?.ready === true");
+    let Some(mut browser) = Chromium::showing(page_with_surfaces) else { return };
     let hidden = |browser: &mut Chromium, index: usize, frame: usize| {
         let boxes = "document.querySelectorAll('#layers input')";
         browser.value(&format!(
@@ -189,11 +178,7 @@ fn a_wall_is_shown_where_the_engine_has_it() {
     let motion_of_wall: Motion = serde_json::from_value(motion()).expect("whole");
     let (time, home) = (0.07, geom::Vec3::new(0.31, -0.2, 0.13));
     let place = motion_of_wall.pose(time).position(&home);
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page_with_surfaces();
-    let mut browser = Chromium::start(&program, &[]);
-    browser.open(&file);
-    browser.wait_for("window.grainpipe?.ready === true");
+    let Some(mut browser) = Chromium::showing(page_with_surfaces) else { return };
     let in_page = browser.value(&format!(
         "(() => {{ const p = poseOf({}, [0, 0, 0], {time}); return [0, 1, 2].map((k) => dot3([p.turn[k], p.turn[3 + k], \
          p.turn[6 + k]], [{}, {}, {}]) + p.shift[k] + middle[k]); }})()",

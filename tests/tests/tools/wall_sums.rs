@@ -1,14 +1,13 @@
 //! Sliding work of walls in runs of random scenes, written seldom and often: all of it is in the file, and none depends on the interval of output.
 
 use grainpipe_tests::metamorphic::draw;
+use grainpipe_tests::recorded::{json, tables};
 use grainpipe_tests::tools::{program, tool};
 use record::column::{KIND, SECOND, WALL, WORK};
 use record::topic::{CONTACTS, ENERGY, WALL_FORCES, WALL_WEAR};
-use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::path::Path;
-use stream::mcap::{Event, Reader};
+use stream::Table;
 
 /// Sliding work of a run [J].
 #[derive(Debug, Default)]
@@ -31,36 +30,27 @@ fn add(sums: &mut BTreeMap<usize, f64>, wall: f64, work: f64) {
 
 fn read(path: &Path) -> Worked {
     let mut worked = Worked::default();
-    for event in Reader::new(File::open(path).expect("written")) {
-        match event.expect("whole") {
-            Event::Bytes { topic, data, .. } if topic == ENERGY => {
-                let json: Value = serde_json::from_slice(&data).expect("JSON");
-                worked.ledger = json["sliding"].as_f64().expect("a number");
-            }
-            Event::Bytes { topic, data, .. } if topic == WALL_FORCES => {
-                let json: Value = serde_json::from_slice(&data).expect("JSON");
-                let length = json["interval"].as_f64().expect("a number");
-                for (index, wall) in json["walls"].as_array().expect("walls").iter().enumerate() {
-                    let Some(work) = wall["sliding_work"].as_f64() else { continue };
-                    add(&mut worked.walls, index as f64, work);
-                    let impulse = worked.impulse.entry(index).or_default();
-                    (0..3).for_each(|a| {
-                        impulse[a] += length * wall["mean_force"][a].as_f64().expect("a number");
-                    });
-                }
-            }
-            Event::Points { topic, table, .. } if topic == CONTACTS || topic == WALL_WEAR => {
-                let column = |name: &str| table.get(name).expect("the column").to_f64();
-                let work = column(WORK);
-                if topic == WALL_WEAR {
-                    column(WALL).iter().zip(work).for_each(|(wall, w)| add(&mut worked.parts, *wall, w));
-                    continue;
-                }
-                for ((wall, kind), w) in column(SECOND).iter().zip(column(KIND)).zip(work) {
-                    if kind == 1.0 { add(&mut worked.contacts, *wall, w) } else { worked.grains += w }
-                }
-            }
-            _ => {}
+    for json in json(path, ENERGY) {
+        worked.ledger = json["sliding"].as_f64().expect("a number");
+    }
+    for json in json(path, WALL_FORCES) {
+        let length = json["interval"].as_f64().expect("a number");
+        for (index, wall) in json["walls"].as_array().expect("walls").iter().enumerate() {
+            let Some(work) = wall["sliding_work"].as_f64() else { continue };
+            add(&mut worked.walls, index as f64, work);
+            let impulse = worked.impulse.entry(index).or_default();
+            (0..3).for_each(|a| impulse[a] += length * wall["mean_force"][a].as_f64().expect("a number"));
+        }
+    }
+    let column = |table: &Table, name: &str| table.get(name).expect("the column").to_f64();
+    for table in tables(path, WALL_WEAR) {
+        let rows = column(&table, WALL).into_iter().zip(column(&table, WORK));
+        rows.for_each(|(wall, work)| add(&mut worked.parts, wall, work));
+    }
+    for table in tables(path, CONTACTS) {
+        let [walls, kinds, works] = [SECOND, KIND, WORK].map(|name| column(&table, name));
+        for ((wall, kind), work) in walls.into_iter().zip(kinds).zip(works) {
+            if kind == 1.0 { add(&mut worked.contacts, wall, work) } else { worked.grains += work }
         }
     }
     worked
@@ -143,15 +133,7 @@ fn the_ledger_of_a_grain_that_adheres_is_sound_across_two_meshes() {
     std::fs::write(folder.path().join("ball.csv"), ball).expect("written");
     let done = tool(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let terms = |path: &Path| -> Value {
-        let events = Reader::new(File::open(path).expect("written"));
-        let energies = events.filter_map(|event| match event.expect("whole") {
-            Event::Bytes { topic, data, .. } if topic == ENERGY => Some(data.to_vec()),
-            _ => None,
-        });
-        serde_json::from_slice(&energies.last().expect("an energy")).expect("JSON")
-    };
-    let last = terms(&folder.path().join("run.mcap"));
+    let last = json(&folder.path().join("run.mcap"), ENERGY).pop().expect("an energy");
     for (name, value) in last.as_object().expect("terms") {
         // The ball has 0.042 J, and adhesion holds less.
         assert!(value.as_f64().is_none_or(|joules| joules.abs() < 0.1), "{name}: {value}");

@@ -32,7 +32,7 @@ pub fn usage(message: impl Into<String>) -> anyhow::Error {
 pub struct Stopped {
     /// Which guard, where, when, at what value.
     pub reason: String,
-    /// What stopped it; `None`: nothing that a run or a signal stops by, such as the answer of a check.
+    /// What stopped the run; `None` where no run was stopped, such as for the answer of a check.
     pub cause: Option<StopCause>,
     /// What was done until then.
     pub report: Option<Report>,
@@ -46,7 +46,7 @@ impl Stopped {
     }
 }
 
-/// An error that ends the tool with exit code 3 because a signal has asked it to end; the same command goes on.
+/// An error that ends the tool with exit code 3 because a signal asked it to end; the same command resumes its work.
 pub fn stopped_by_signal(reason: impl Into<String>) -> anyhow::Error {
     Stopped::error(reason, Some(StopCause::Signal), Report::new("").with("stopped", record::SIGNAL))
 }
@@ -58,7 +58,7 @@ impl fmt::Display for Stopped {
 }
 impl Error for Stopped {}
 
-/// Whether the reader closed our output. This is not a failure: the rest is not wanted.
+/// Whether the reader has closed the output of the tool. This is no failure: the reader wants no more.
 pub(crate) fn reader_closed_the_pipe(error: &anyhow::Error) -> bool {
     error
         .chain()
@@ -79,7 +79,7 @@ pub(crate) fn code(error: &anyhow::Error) -> u8 {
     }
 }
 
-/// The error and its causes on one line. A cause that its parent already quotes is not said twice.
+/// The error and its causes on one line, without causes that the text before already quotes.
 pub(crate) fn one_line(error: &anyhow::Error) -> String {
     let mut line = String::new();
     for cause in error.chain() {

@@ -51,7 +51,7 @@ pub use input::{Lengths, Source};
 pub use invocation::{arguments, provenance, quiet, warn};
 pub use length::length;
 pub use output::{Output, OutputStream};
-pub use part::{Keep, NotRenamed, is_part, is_written, parts_of};
+pub use part::{Keep, is_part, is_written, parts_of, with_part};
 pub use paths::{MaybeFile, OutPath};
 pub use placing::{Placing, read_mesh};
 pub use progress::Progress;

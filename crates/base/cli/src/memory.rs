@@ -20,12 +20,12 @@ static ALLOCATOR: EndsTheTool = EndsTheTool;
 static ENDING: AtomicBool = AtomicBool::new(false);
 thread_local!(static MINE: Cell<bool> = const { Cell::new(false) });
 
-/// The pointer, or the end of the tool where there is none for so many bytes.
+/// Returns the pointer; ends the tool if the allocation of so many bytes failed.
 fn given(pointer: *mut u8, bytes: usize) -> *mut u8 {
     if pointer.is_null() { end(bytes) } else { pointer }
 }
 
-/// Says what was missing [B], without asking for memory, and ends the process.
+/// Prints how many bytes were missing, without an allocation, and ends the process.
 #[cold]
 pub(crate) fn end(bytes: usize) -> *mut u8 {
     if ENDING.swap(true, SeqCst) {
@@ -47,7 +47,7 @@ pub(crate) fn end(bytes: usize) -> *mut u8 {
     );
     let length = 256 - left.len();
     let _ = std::io::stderr().write_all(&line[..length]);
-    // Their names are short: there is memory for these where there was none for much.
+    // The names of files are short: a small allocation succeeds where a large one failed.
     crate::signals::remove_unfinished();
     std::process::exit(i32::from(crate::exit::FAILED))
 }

@@ -50,9 +50,32 @@ impl Output {
         ending.is_some_and(|ending| ending.eq_ignore_ascii_case(extension))
     }
 
+    /// Checks that the file's name ends as one of these formats does, or has no ending.
+    ///
+    /// # Errors
+    /// Wrong usage: the ending is that of another format.
+    pub fn check_ending(&self, formats: &[&str]) -> anyhow::Result<()> {
+        let ending = self.path().and_then(Path::extension);
+        if ending.is_none() || formats.iter().any(|format| self.has_extension(format)) {
+            return Ok(());
+        }
+        let (names, endings) = (
+            formats.iter().map(|f| f.to_uppercase()).collect::<Vec<_>>().join(" or "),
+            formats.join(" or ."),
+        );
+        Err(usage(format!("-o {}: the output is {names}: use a name that ends in .{endings}", self.name())))
+    }
+
     /// The name that messages use.
     pub fn name(&self) -> String {
         self.path().map_or_else(|| "stdout".to_owned(), |path| path.display().to_string())
+    }
+
+    /// The path of the unfinished file of [`Output::open_long`] as the user would write it; that of a link lies beside its target.
+    pub fn name_of_part(&self, out: &OutputStream) -> Option<PathBuf> {
+        let (path, part) = (self.path()?, out.part()?);
+        let named = path.with_file_name(part.file_name()?);
+        Some(if path.is_symlink() { part.to_owned() } else { named })
     }
 
     /// Whether the file holds exactly these bytes: then it can stay, with its time, and make runs nothing again that depends on it.
@@ -140,6 +163,16 @@ impl OutputStream {
     /// A folder that is missing or cannot be written to.
     pub fn file(path: &Path) -> anyhow::Result<OutputStream> {
         OutputStream::beside(path, PartFile::hidden)
+    }
+
+    /// Writes a whole file, which appears when it is complete.
+    ///
+    /// # Errors
+    /// As [`OutputStream::file`]; a write that fails.
+    pub fn write_file(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+        let mut out = OutputStream::file(path)?;
+        out.write_all(bytes).with_context(|| path.display().to_string())?;
+        out.commit()
     }
 
     fn beside(path: &Path, part: fn(&Path, &str) -> io::Result<PartFile>) -> anyhow::Result<OutputStream> {

@@ -118,7 +118,7 @@ impl PartFile {
 
 /// A complete output that could not be given its name.
 #[derive(Debug)]
-pub struct NotRenamed {
+struct NotRenamed {
     part: PathBuf,
     path: PathBuf,
     source: io::Error,
@@ -141,6 +141,20 @@ impl Error for NotRenamed {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         Some(&self.source)
     }
+}
+
+/// Adds to the error of a run that its unfinished output stays: until which time [s] it goes, and what it is good for.
+pub fn with_part(
+    error: anyhow::Error,
+    part: Option<&Path>,
+    until: f64,
+    use_of: impl FnOnce(&Path) -> String,
+) -> anyhow::Error {
+    // A complete output that has no name says so itself.
+    let whole = error.chain().any(|cause| cause.is::<NotRenamed>());
+    let Some(part) = part.filter(|part| part.is_file() && !whole) else { return error };
+    let (time, use_of, part) = (geom::Shown(until), use_of(part), part.display());
+    error.context(format!("the run until t = {time} s is kept in {part} ({use_of})"))
 }
 
 /// Gives a file the owner and the mode of the one that it replaces.

@@ -1,8 +1,8 @@
 //! Ctrl-C, termination and a lost terminal.
 //!
 //! Unfinished files that are not worth keeping are removed, then the signal has its usual effect. A tool may ask to get the signal
-//! first and end in order; a second signal ends it at once. That one arrived is noted in the handler: the thread that acts on it may come later than the
-//! failure of a program or pipe that the same signal ended.
+//! first and end in order; a second signal ends it at once. The handler itself notes that a signal arrived, because the thread that acts on it may
+//! run later than the failure of a program or pipe that the same signal ended.
 
 use crate::part::{Keep, PartFile};
 use signal_hook::{
@@ -27,12 +27,12 @@ static LISTEN: Once = Once::new();
 static ORDERLY: AtomicBool = AtomicBool::new(false);
 /// Whether a signal that asks a tool to end has arrived.
 static ARRIVED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
-/// Whether the one that asks for an end in order was acted on.
+/// Whether the tool has begun to end in order.
 static ASKED: AtomicBool = AtomicBool::new(false);
-/// Longest wait for the end by a signal that has arrived.
+/// How long a failure waits for a signal that has arrived to end the tool.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// From now on, a file that reaches the limit on sizes (`ulimit -f`) is an error of the write; the signal would kill the tool.
+/// From now on, a write that reaches the limit on file sizes (`ulimit -f`) is an error; by default a signal kills the tool.
 pub(crate) fn size_limit_is_an_error() {
     // Without it the tool is killed, as before.
     let _ = flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
@@ -49,7 +49,7 @@ pub fn stop_requested() -> bool {
     ORDERLY.load(SeqCst) && ARRIVED.load(SeqCst)
 }
 
-/// Lets a signal that has arrived end a tool that would end by it: what fails then is mostly a program or a pipe that the same signal ended.
+/// Waits until a signal that has arrived ends the tool: the failure that the tool sees is most often a program or a pipe that the same signal ended.
 pub(crate) fn let_it_end() {
     let since = Instant::now();
     while !ORDERLY.load(SeqCst) && ARRIVED.load(SeqCst) && since.elapsed() < PATIENCE {
@@ -67,7 +67,7 @@ pub(crate) fn removed_on_signal(create: impl FnOnce() -> io::Result<PartFile>) -
     Ok(part)
 }
 
-/// Creates what holds a folder, at `path`, that is removed when a signal ends the process; as for files, unless it was renamed before.
+/// Creates a folder at `path`, which is removed when a signal ends the process, unless it was renamed before.
 ///
 /// # Errors
 /// Those of `create`.
@@ -82,7 +82,7 @@ pub fn folder_removed_on_signal<T, E>(
     Ok(made)
 }
 
-/// Whether a lost terminal is not to end the tool, as `nohup` has it; where the system does not tell, it is taken as so.
+/// Whether a lost terminal does not end the tool, as under `nohup`; true where the system does not say.
 fn hangup_is_ignored() -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -121,10 +121,10 @@ fn listen() {
             }
             let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
             remove(&unfinished);
-            // With the lock still held, so that no file is begun any more.
+            // The lock is still held, so that no other file is created.
             let _ = emulate_default_handler(signal);
         }
     };
-    // As without signals: where there is no memory for a thread, the hidden file is left behind.
+    // Without memory for a thread, the hidden file is left behind, as if signals were not watched.
     let _ = std::thread::Builder::new().spawn(listener);
 }

@@ -7,10 +7,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Most links that follow each other, as in Linux.
+/// Longest chain of links that is followed, as in Linux.
 const LINKS: usize = 40;
 
-/// The file that is written for a name: at the end of links, also where it does not exist yet.
+/// The file that is written for a name: the one at the end of its links, which need not exist yet.
 ///
 /// # Errors
 /// Links in a circle.
@@ -25,15 +25,15 @@ pub(crate) fn target(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("its links lead in a circle"))
 }
 
-/// Whether a name stands for an open file of this process, such as /dev/stdout: it is written to as it is, because replacing it would leave what others
-/// write there without a name.
+/// Whether a name stands for an open file of this process, such as /dev/stdout. It is written to in place: if it were replaced, what other programs write
+/// there would have no name any more.
 pub(crate) fn is_descriptor(path: &Path) -> bool {
     let own = format!("/proc/{}/fd", std::process::id());
     fs::canonicalize(folder(path)).is_ok_and(|folder| folder == Path::new(&own))
 }
 
-/// Opens a device, a pipe or an open file for writing. Stdout and stderr are shared with the program that opened them, also where they write; other open
-/// files cannot be, and are refused.
+/// Opens a device, a pipe or an open file for writing. Stdout and stderr keep the position of the program that opened them; other open files cannot, and
+/// are refused.
 ///
 /// # Errors
 /// Whatever the system says.

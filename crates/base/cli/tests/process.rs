@@ -13,37 +13,25 @@ use std::{
     time::{Duration, Instant},
 };
 
-type Test = fn(&Path);
+/// Tests with their names.
+macro_rules! named {
+    ($($test:path);*) => { [$((stringify!($test), $test as fn(&Path))),*] };
+}
 
 fn main() -> ExitCode {
     if std::env::var_os(tool::SWITCH).is_some() {
         return tool::main();
     }
-    let tests: [(&str, Test); 24] = [
-        ("a file appears when it is whole, with ordinary permissions", a_file_appears_when_it_is_whole),
-        ("a failed tool leaves the old file and nothing else", a_failed_tool_leaves_the_old_file),
-        ("a panic leaves nothing", a_panic_leaves_nothing),
-        ("a signal leaves nothing", a_signal_leaves_nothing),
-        ("a signal comes before what it breaks", outside::a_signal_comes_before_what_it_breaks),
-        ("too little memory is one line", outside::too_little_memory_is_one_line),
-        ("threads of a variable have the same limit", outside::threads_of_a_variable),
-        ("names of files are bytes, as long as the system allows", outside::names_of_all_bytes_and_lengths),
-        ("what a tool reads is noted", outside::what_a_tool_reads_is_noted),
-        ("links stay links, devices and pipes stay what they are", links_and_pipes_stay),
-        ("a link without a target stays, and its target is created", a_dangling_link_stays),
-        ("a file that is replaced keeps its mode and owner", a_replaced_file_keeps_its_mode),
-        ("a write-protected file is not replaced", a_protected_file_stays),
-        ("a limit on the size of files is an error", a_size_limit_is_an_error),
-        ("a closed pipe is no failure", a_closed_pipe_is_no_failure),
-        ("a closed stdout is a failure", a_closed_stdout_is_a_failure),
-        ("names cannot steer the terminal", names_cannot_steer_the_terminal),
-        ("more threads than a machine can use are not started", too_many_threads_are_not_started),
-        ("wrong usage is exit 2", wrong_usage_is_exit_2),
-        ("a guard's stop is exit 3, with output and report", a_stop_is_exit_3),
-        ("a missing input names the tool, the file and the cure", a_missing_input_is_named),
-        ("the report says what was done", the_report_says_what_was_done),
-        ("quiet is quiet", quiet_is_quiet),
-        ("pipes and files give the same bytes", pipes_and_files_give_the_same_bytes),
+    let tests = named![
+        a_file_appears_when_it_is_whole; a_failed_tool_leaves_the_old_file; a_panic_leaves_nothing;
+        a_signal_leaves_nothing; outside::a_signal_comes_before_what_it_breaks;
+        outside::too_little_memory_is_one_line; outside::threads_of_a_variable;
+        outside::names_of_all_bytes_and_lengths; outside::what_a_tool_reads_is_noted; links_and_pipes_stay;
+        a_dangling_link_stays; a_replaced_file_keeps_its_mode; a_protected_file_stays;
+        a_size_limit_is_an_error; a_closed_pipe_is_no_failure; a_closed_stdout_is_a_failure;
+        names_cannot_steer_the_terminal; too_many_threads_are_not_started; wrong_usage_is_exit_2;
+        a_stop_is_exit_3; a_missing_input_is_named; the_report_says_what_was_done; quiet_is_quiet;
+        pipes_and_files_give_the_same_bytes
     ];
     let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     for (name, test) in tests.iter().filter(|(name, _)| wanted.iter().all(|w| name.contains(w))) {

@@ -1,17 +1,17 @@
 //! Points in the order of the cell grid, with the runs of neighbouring cells computed once per cell.
 //!
-//! The samplers need the neighbours of most points, often, and at several radii. Looking cells up once for
-//! all points of a cell, and walking positions that lie side by side in memory, is several times faster
-//! than asking the grid point by point.
+//! The samplers search the neighbours of most points, many times, and at several radii. One lookup for all
+//! points of a cell, and positions that are contiguous in memory, are several times faster than a search in
+//! the grid point by point.
 
 use crate::{Grid, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Cells and slots are worked on in parts of this many.
+/// Threads take this many cells or slots at a time.
 const PART: usize = 1024;
 
-/// The cells that hold points, sorted: the key of each, and its first slot (and one more).
+/// The cells that hold points, sorted: the key of each, and its first slot; behind them the number of slots.
 struct Filled<'a> {
     dims: [i64; 3],
     keys: &'a [u64],
@@ -23,7 +23,7 @@ struct Filled<'a> {
 struct Cell {
     /// Slots in the 27 cells around it: at most nine contiguous runs.
     rows: [(u32, u32); 9],
-    /// Runs in use.
+    /// How many of these runs are in use.
     used: u8,
 }
 
@@ -32,9 +32,9 @@ struct Cell {
 pub struct Cells {
     /// Positions by slot [m].
     pub points: Vec<Vec3>,
-    /// The grid that gave the order; for searches wider than a cell.
+    /// The grid that the order comes from; it serves searches wider than a cell.
     pub grid: Grid,
-    /// Width of a cell, and the largest radius that may be asked for [m].
+    /// Width of a cell, which is also the largest radius of a search [m].
     pub width: f64,
     cells: Vec<Cell>,
     cell_of: Vec<u32>,
@@ -95,7 +95,7 @@ impl Cells {
         self.grid.order()
     }
 
-    /// Place of each point, by index.
+    /// The slot of each point, by index.
     pub fn slots(&self) -> Vec<u32> {
         let mut slots = vec![0; self.len()];
         for (slot, &i) in (0..).zip(self.order()) {
@@ -122,7 +122,7 @@ impl Cells {
     }
 
     /// Calls `f` with the slot and the squared distance [m²] of each point nearer than `radius` [m]
-    /// to the one at `slot`; itself too.
+    /// to the one at `slot`, and for that point itself.
     #[inline(always)]
     pub fn each_near(&self, slot: u32, radius: f64, mut f: impl FnMut(u32, f64)) {
         debug_assert!(radius <= self.width);
@@ -137,7 +137,7 @@ impl Cells {
         }
     }
 
-    /// Number of points nearer than `radius` [m] to the one at `slot`, itself too; counting may stop past `enough`.
+    /// Number of points nearer than `radius` [m] to the one at `slot`, that point included; counting may stop past `enough`.
     #[inline(always)]
     pub fn count_near(&self, slot: u32, radius: f64, enough: u32) -> u32 {
         let centre = self.points[slot as usize];
@@ -152,7 +152,7 @@ impl Cells {
         count
     }
 
-    /// For each slot, `f` of the slot; in parallel, in parts of fixed size.
+    /// `f(slot)` for every slot, in parallel; the parts have a fixed size.
     pub fn map<T: Send>(&self, f: impl Fn(u32) -> T + Sync + Send) -> Vec<T> {
         (0..self.len() as u32).into_par_iter().with_min_len(PART).map(f).collect()
     }
@@ -171,14 +171,14 @@ pub fn apart(p: &Vec3, q: &Vec3) -> f64 {
 }
 
 impl Filled<'_> {
-    /// Where a cell is.
+    /// Coordinates of a cell in the grid.
     fn at(&self, cell: usize) -> [i64; 3] {
         let (key, [nx, ny, _]) = (self.keys[cell] as i64, self.dims);
         [key % nx, key / nx % ny, key / nx / ny]
     }
 
-    /// Rows around the cells from `first` on. Cells are sorted (z slowest, x fastest), so the rows of successive cells
-    /// move forward only: nine pointers walk along the list once, and nothing is looked up.
+    /// Finds the rows of cells around each cell from `first` on. Cells are sorted (z slowest, x fastest), so the rows of successive cells
+    /// only move forward: nine pointers pass the list once, without a search.
     fn rows(&self, first: usize, cells: &mut [Cell]) {
         let [nx, ny, nz] = self.dims;
         let at: Vec<[i64; 3]> = (first..first + cells.len()).map(|cell| self.at(cell)).collect();

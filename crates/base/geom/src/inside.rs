@@ -5,7 +5,7 @@ use crate::mesh::{MeshError, TriMesh};
 use crate::tree::Tree;
 use std::sync::OnceLock;
 
-/// Entries of the columns for each face, at most: of faces that are about as long as wide there are fewer than ten.
+/// Most columns per face on average; a face about as long as it is wide is in fewer than ten.
 const ENTRIES: usize = 32;
 
 /// Faces of a closed mesh sorted into columns along x.
@@ -21,7 +21,7 @@ pub struct Inside {
     columns: [usize; 2],
     starts: Vec<u32>,
     faces: Vec<u32>,
-    /// Made when a distance is first needed.
+    /// Built when a distance is first needed.
     tree: OnceLock<Tree>,
 }
 
@@ -48,7 +48,7 @@ impl Inside {
         let side = ((mesh.faces.len() as f64).sqrt().ceil() as usize).clamp(1, 1024);
         let (starts, faces, tree) = (Vec::new(), Vec::new(), OnceLock::new());
         let mut inside = Inside { mesh, lo, hi, columns: [side, side], starts, faces, tree };
-        // Long faces are in many columns: fewer columns then.
+        // Long faces lie in many columns: with fewer columns they lie in fewer.
         while inside.columns[0] > 1 && inside.count_entries() > ENTRIES * inside.mesh.faces.len() {
             inside.columns = inside.columns.map(|side| side.div_ceil(2));
         }
@@ -56,7 +56,7 @@ impl Inside {
         Ok(inside)
     }
 
-    /// First and last column that a face may be in.
+    /// First and last column that a face can lie in, along y and z.
     fn columns_of(&self, tri: &[Vec3; 3]) -> ([usize; 2], [usize; 2]) {
         let (lo, hi) = (tri[0].inf(&tri[1]).inf(&tri[2]), tri[0].sup(&tri[1]).sup(&tri[2]));
         (self.column(&lo), self.column(&hi))

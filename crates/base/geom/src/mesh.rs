@@ -11,9 +11,9 @@ pub use crate::triangle::{Feature, closest_feature, closest_point};
 /// Triangles over shared vertices; seen from outside, corners run anticlockwise.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TriMesh {
-    /// Places of the vertices [m].
+    /// Positions of the vertices [m].
     pub vertices: Vec<Vec3>,
-    /// Three vertex numbers a face.
+    /// Three vertex numbers per face.
     pub faces: Vec<[u32; 3]>,
 }
 
@@ -27,7 +27,7 @@ pub enum MeshError {
         face: usize,
         /// The vertex it names.
         vertex: u32,
-        /// How many there are.
+        /// How many vertices there are.
         vertices: usize,
     },
     /// A coordinate that is NaN or infinite.
@@ -47,10 +47,10 @@ pub enum MeshError {
 }
 
 impl TriMesh {
-    /// A mesh whose faces name existing vertices with finite places.
+    /// Checks that faces name existing vertices and that positions are finite.
     ///
     /// # Errors
-    /// A vertex that is not there, or one that is not finite.
+    /// A face names a missing vertex, or a vertex is not finite.
     pub fn new(vertices: Vec<Vec3>, faces: Vec<[u32; 3]>) -> Result<TriMesh, MeshError> {
         let count = vertices.len();
         if let Some(bad) = vertices.iter().position(|v| !v.iter().all(|c| c.is_finite())) {
@@ -69,7 +69,7 @@ impl TriMesh {
         self.vertices.iter_mut().for_each(|v| *v *= factor);
     }
 
-    /// Moves all vertices; faces keep their sides, because a [`Transform`] does not mirror.
+    /// Transforms all vertices; faces keep their orientation, because a [`Transform`] does not mirror.
     pub fn transform(&mut self, by: &Transform) {
         self.vertices.iter_mut().for_each(|v| *v = by.point(v));
     }
@@ -96,7 +96,7 @@ impl TriMesh {
         self.triangles().map(signed).sum()
     }
 
-    /// The same surface with vertices at equal places made one (STL and triangle soups repeat them).
+    /// The same surface with vertices at equal positions merged (STL and triangle soups repeat them).
     pub fn welded(&self) -> TriMesh {
         let mut seen: HashMap<[u64; 3], u32> = HashMap::new();
         let mut vertices = Vec::new();
@@ -125,7 +125,7 @@ impl TriMesh {
         count.values().filter(|&&n| n != 2).count()
     }
 
-    /// The point of the surface nearest to `p` [m], and its face; looks at every face. None without faces.
+    /// The point of the surface nearest to `p` [m], and its face; checks every face. `None` without faces.
     pub fn closest(&self, p: Vec3) -> Option<(Vec3, usize)> {
         let mut best: Option<(f64, Vec3, usize)> = None;
         for (face, tri) in self.triangles().enumerate() {
@@ -144,7 +144,7 @@ impl TriMesh {
             / (4.0 * std::f64::consts::PI)
     }
 
-    /// Whether `p` [m] is inside a closed mesh; looks at every face ([`Inside`] is for many places).
+    /// Whether `p` [m] is inside a closed mesh; checks every face (for many positions use [`Inside`]).
     pub fn contains(&self, p: &Vec3) -> bool {
         self.winding(*p).abs() > 0.5
     }

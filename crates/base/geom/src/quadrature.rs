@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-/// Nodes and weights of so many points from −1 to 1: Newton's method on the Legendre polynomial, from Tricomi's estimate.
+/// Nodes and weights for `count` points on [−1, 1]: Newton's method on the Legendre polynomial, from Tricomi's estimate.
 pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
     let n = count as f64;
     let node = |k: usize| {

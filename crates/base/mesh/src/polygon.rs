@@ -2,14 +2,15 @@
 //!
 //! A convex face becomes a fan around its first corner. Any other one is cut by ears, on the plane of two axes on which it is largest (its normal is Newell's): a
 //! corner is an ear if it turns left and neither a corner nor an edge of the rest lies in its triangle. Each corner stays a corner of a triangle, also on a
-//! straight edge, because a neighbour may have it: that is why no crate is used, which leave such corners out. It begins at the lowest corner, whichever is first.
+//! straight edge, because a neighbour may have it; published crates leave such corners out, so none is used. The cut begins at the lowest corner, whichever comes first
+//! in the list.
 //!
 //! Meisters (1975), Polygons have ears, doi:10.2307/2319703. Orientations are exact: Shewchuk (1997), doi:10.1007/PL00009321.
 
 use geom::Vec3;
 use robust::{Coord, orient2d};
 
-/// Corners of a face that is not convex at most: time grows with their square.
+/// Most corners of a face that is not convex: time grows with their square.
 const MOST_CORNERS: usize = 4096;
 /// A turn this far to the right, as the sine of its angle, is straight [–]: coordinates of 4 bytes are not exact.
 const STRAIGHT: f64 = 1e-6;
@@ -57,14 +58,14 @@ pub(crate) fn cut(face: &[u32], vertices: &[Vec3], into: &mut Vec<[u32; 3]>) -> 
     Ok(())
 }
 
-/// Newell's normal: twice the area of the face long.
+/// Newell's normal, whose length is twice the area of the face.
 fn normal(corners: &[Vec3]) -> Vec3 {
     let next = corners.iter().skip(1).chain(corners.first());
     let origin = corners.first().copied().unwrap_or_default();
     corners.iter().zip(next).map(|(a, b)| (a - origin).cross(&(b - origin))).sum()
 }
 
-/// Whether every turn is to the left, and the fan around the first corner too. A face without any area is as good.
+/// Whether every corner turns left, and so does the fan around the first corner. A face without area counts as convex.
 fn is_convex(corners: &[Vec3]) -> bool {
     let normal = normal(corners);
     let up = normal.try_normalize(0.0).unwrap_or_default();
@@ -94,7 +95,7 @@ fn flattened(corners: &[Vec3]) -> Option<Vec<Coord<f64>>> {
     Some(corners.iter().map(|c| Coord { x: c[u], y: c[v] }).collect())
 }
 
-/// Two edges that cross, by their first corners. Edges may touch, as those of a bridge to a hole.
+/// Two edges that cross, each named by its first corner. Edges may touch, as those of a bridge to a hole.
 fn crossing(flat: &[Coord<f64>]) -> Option<[usize; 2]> {
     let n = flat.len();
     let ends = |i: usize| (flat[i], flat[(i + 1) % n]);
@@ -142,7 +143,7 @@ fn ears(flat: &[Coord<f64>]) -> Option<Vec<[usize; 3]>> {
     (orient2d(flat[last[0]], flat[last[1]], flat[last[2]]) >= 0.0).then_some(cut)
 }
 
-/// A corner between the one before and the one behind.
+/// A corner with the corner before it and the one after it.
 fn three(left: &[usize], k: usize) -> [usize; 3] {
     let n = left.len();
     [left[(k + n - 1) % n], left[k], left[(k + 1) % n]]

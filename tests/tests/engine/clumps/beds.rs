@@ -1,6 +1,7 @@
 //! Many rigid clumps: their energy, their bits, their step; what is refused.
 
 use super::*;
+use grainpipe_tests::same_bits::{Run, particle_bits, steps};
 
 /// Clumps of three kinds and spheres, thrown into a periodic, shaken trough of wall spheres.
 fn trough(law: Law, count: u32) -> Setup {
@@ -49,16 +50,11 @@ fn trough(law: Law, count: u32) -> Setup {
 }
 
 /// Every bit of every particle and body.
-fn bits(mut sim: Simulation, steps: u64) -> Vec<u64> {
-    for _ in 0..steps {
-        sim.step().expect("within the guards");
-    }
-    let of = |p: &Particle| [p.position, p.velocity, p.spin].map(|v| [v.x, v.y, v.z]).concat();
-    let mut all: Vec<f64> = particles(&mut sim).iter().flat_map(of).collect();
+fn bits(sim: &mut Simulation) -> Vec<u64> {
     let turn =
         |b: &ClumpState| b.orientation.coords.iter().chain(&b.angular_momentum).copied().collect::<Vec<_>>();
-    all.extend(bodies(&mut sim).iter().flat_map(turn));
-    all.into_iter().map(f64::to_bits).collect()
+    let turns = bodies(sim).iter().flat_map(turn).map(f64::to_bits).collect();
+    [particle_bits(sim), turns].concat()
 }
 
 /// Kinetic + potential + elastic + dissipated − work of walls stays the same.
@@ -87,34 +83,15 @@ fn energy_budget_closes() {
 
 #[test]
 fn same_bits_for_widths_threads_order_and_resume() {
-    let reference = bits(simulation(trough(Law::Hertz, 75)), 900);
-    for width in Width::available() {
-        let sim = Simulation::with_width(trough(Law::Hertz, 75), width).expect("sound");
-        assert!(bits(sim, 900) == reference, "{width:?}");
-    }
-    for threads in [1, 3] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        assert!(
-            pool.install(|| bits(simulation(trough(Law::Hertz, 75)), 900)) == reference,
-            "{threads} threads"
-        );
-    }
-    let mut shuffled = trough(Law::Hertz, 75);
+    let look = |sim: &mut Simulation| {
+        particles(sim);
+    };
+    let setup = || trough(Law::Hertz, 75);
+    let run = Run { setup: &setup, parts: [&steps(400), &steps(500)], look: &look, bits: &bits };
+    let mut shuffled = setup();
     shuffled.particles.reverse();
     shuffled.clumps.placed.rotate_left(17);
-    assert!(bits(simulation(shuffled), 900) == reference, "another order");
-    for looked in [false, true] {
-        let mut first = simulation(trough(Law::Hertz, 75));
-        for _ in 0..400 {
-            first.step().expect("within the guards");
-        }
-        if looked {
-            particles(&mut first);
-        }
-        let saved = first.checkpoint().to_static();
-        let resumed = Simulation::resume(trough(Law::Hertz, 75), saved).expect("the same setup");
-        assert!(bits(resumed, 500) == reference, "resumed, looked at: {looked}");
-    }
+    assert!(run.end(simulation(shuffled)) == run.check(), "another order");
 }
 
 /// Just below the critical step a packing of clumps neither heats nor explodes; above, the step is refused, and the clump named.
@@ -158,7 +135,7 @@ fn constant_rolling_ends_on_a_rod() {
     let rolling = Vec3::new(0.0, -0.03, 0.0);
     let rod =
         Body { velocity: rolling, spin: Vec3::new(3.0, 0.0, 0.0), ..body(1, Vec3::new(0.0, 0.0, 0.00999)) };
-    setup.clumps = Clumps { shapes: vec![shape(&spheres)], placed: vec![rod], entries: vec![] };
+    setup.clumps = Clumps { shapes: vec![clump(&spheres)], placed: vec![rod], entries: vec![] };
     let mut sim = simulation(setup);
     run_until(&mut sim, 1.0);
     let before = energy(&mut sim);

@@ -1,8 +1,8 @@
 //! Runs that end when their grains have come to rest, and what they say of servos.
 
-use super::{checkpoints, events, frames, with};
+use super::{checkpoints, frames, with};
+use grainpipe_tests::recorded::json;
 use grainpipe_tests::tools::{succeed, tool};
-use stream::mcap::Event;
 
 /// Thirty grains that fall into a box.
 const BOX: &str = r#"gravity = [0, 0, -9.81]
@@ -32,15 +32,6 @@ faces = ["x-", "x+", "y-", "y+", "z-"]
 material = "sand"
 "#;
 
-/// The messages of a JSON topic.
-fn messages(path: &std::path::Path, of: &str) -> Vec<serde_json::Value> {
-    let pick = |event| match event {
-        Event::Bytes { topic, data, .. } if topic == of => serde_json::from_slice(&data).ok(),
-        _ => None,
-    };
-    events(path).0.into_iter().filter_map(pick).collect()
-}
-
 /// The run ends at rest with a frame, a checkpoint and its reason; a resumed one at the same step with the same bytes.
 #[test]
 fn a_run_ends_when_its_grains_rest() {
@@ -54,10 +45,10 @@ fn a_run_ends_when_its_grains_rest() {
     );
     let (last, table) = frames(&at("all.mcap")).pop().expect("a frame");
     assert!(last < 2_900_000_000 && table.rows() == 30, "{last}");
-    let settling = messages(&at("all.mcap"), "/settling");
+    let settling = json(&at("all.mcap"), "/settling");
     let ratio = |k: usize| settling[k]["unbalanced"].as_f64();
     assert!(ratio(settling.len() - 1).is_some_and(|r| r <= 1e-4), "{settling:?}");
-    assert!(messages(&at("all.mcap"), "/log").iter().any(|m| m.to_string().contains("have come to rest")));
+    assert!(json(&at("all.mcap"), "/log").iter().any(|m| m.to_string().contains("have come to rest")));
     // Resumed half-way, it ends at the same step in the same state.
     let half = format!("{}", last as f64 / 2e9);
     succeed(folder.path(), "dem-run", &["s.toml", "--until", &half, "-o", "half.mcap"]);
@@ -83,7 +74,7 @@ fn no_end_before_a_servo_presses() {
         "{}",
         done.stderr
     );
-    let servo = &messages(&folder.path().join("all.mcap"), "/wall_forces").pop().expect("it is there")["walls"]
+    let servo = &json(&folder.path().join("all.mcap"), "/wall_forces").pop().expect("it is there")["walls"]
         [5]["servo"];
     let (push, target) = (servo["push"].as_f64(), servo["target"].as_f64());
     assert!(push.zip(target).is_some_and(|(push, target)| (push / target - 1.0).abs() < 0.05), "{servo}");
@@ -120,7 +111,7 @@ fn servos_report_at_the_end() {
     let folder = with(&lid(0.08));
     let done = succeed(folder.path(), "dem-run", &["s.toml", "-o", "a.mcap"]);
     assert!(done.stderr.contains("servo of wall 'lid': force off by"), "{}", done.stderr);
-    let forces = messages(&folder.path().join("a.mcap"), "/wall_forces");
+    let forces = json(&folder.path().join("a.mcap"), "/wall_forces");
     let servo = &forces.last().expect("a frame")["walls"][5]["servo"];
     let number = |key: &str| servo[key].as_f64().unwrap_or(f64::NAN);
     assert!(number("target") == 2.0 && (number("push") - 2.0).abs() < 0.02, "{servo}");

@@ -1,11 +1,10 @@
 //! Scenes in which two things meet that are right by themselves.
 
 use super::with;
+use grainpipe_tests::recorded::json;
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{Done, succeed, tool};
-use serde_json::Value;
 use std::path::Path;
-use stream::mcap::Event;
 
 /// Material and contact of all scenes here; `{law}` is what the contact has besides.
 fn head(law: &str) -> String {
@@ -85,13 +84,7 @@ fn a_plate_that_is_drawn_twice_is_one() {
 #[test]
 fn grains_that_touch_a_wall_are_counted_once_each() {
     let counted = |folder: &Path| -> Vec<u64> {
-        let pick = |event: Event| match event {
-            Event::Bytes { topic, data, .. } if topic == "/wall_forces" => Some(data),
-            _ => None,
-        };
-        let (events, _) = super::events(&folder.join("run.mcap"));
-        let last = events.into_iter().filter_map(pick).next_back().expect("forces");
-        let frame: Value = serde_json::from_slice(&last).expect("JSON");
+        let frame = json(&folder.join("run.mcap"), "/wall_forces").pop().expect("forces");
         let walls = frame["walls"].as_array().expect("walls").iter();
         walls.map(|wall| wall["contacts"].as_u64().expect("a number")).collect()
     };

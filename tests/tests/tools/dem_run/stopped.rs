@@ -1,6 +1,7 @@
 //! Runs that a signal, a guard or a full disk stops, and runs that go on from them.
 
 use super::*;
+use stream::mcap::Reader;
 
 #[test]
 fn a_killed_run_is_refused_as_input_and_resumes_from_its_last_checkpoint() {
@@ -80,13 +81,9 @@ fn the_report_and_the_log_of_a_stopped_run_name_the_guard() {
         let stop = serde_json::json!({"by": "guard", "guard": guard});
         assert_eq!(report["stop"], stop, "{report}");
         assert!(report["stopped"].as_str().is_some_and(|text| text.starts_with("t = ")), "{report}");
-        let log = events(&folder.path().join("run.mcap")).0.into_iter().find_map(|event| match event {
-            Event::Bytes { topic, data, .. } if topic == "/log" => {
-                serde_json::from_slice::<serde_json::Value>(&data).ok().filter(|m| m["kind"] == "stopped")
-            }
-            _ => None,
-        });
-        assert_eq!(log.expect("a message of the stop")["stop"], stop);
+        let log = json(&folder.path().join("run.mcap"), "/log");
+        let log = log.iter().find(|message| message["kind"] == "stopped").expect("a message of the stop");
+        assert_eq!(log["stop"], stop);
     }
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap", "--report", "r.json"]);
     let report = fs::read_to_string(folder.path().join("r.json")).unwrap();

@@ -1,9 +1,10 @@
 //! Cracks, fragments and grading of stones that fall on a floor and break.
 
 use super::{column, failed, measure, sum};
+use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::succeed;
 use std::fs;
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 /// Two stones of hexagonally packed grains, of which only those of one stone are bonded; one falls fast.
 const SCENE: &str = r#"
@@ -53,8 +54,7 @@ material = "rock"
 "#;
 
 fn broken() -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), SCENE).unwrap();
+    let folder = folder(&[("s.toml", SCENE)]);
     succeed(folder.path(), "dem-run", &["s.toml", "-o", "run.mcap"]);
     folder
 }

@@ -2,13 +2,14 @@
 
 use super::{column, failed, measure, sum};
 use geom::Vec3;
+use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{line, tool};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 use std::fs;
 use stream::Table;
 use stream::mcap::{Event, Reader};
-use tempfile::{TempDir, tempdir};
+use tempfile::TempDir;
 
 const HEAD: &str = r#"gravity = [0, 0, -9.81]
 [time]
@@ -60,8 +61,7 @@ pub(super) struct Held {
 
 impl Held {
     pub fn new(scene: &str, options: &[&str]) -> Held {
-        let folder = tempdir().unwrap();
-        fs::write(folder.path().join("s.toml"), scene).unwrap();
+        let folder = folder(&[("s.toml", scene)]);
         let rod: String =
             (0..5).map(|k| format!("{},0.025,0.062,0.004\n", 0.009 + 0.008 * f64::from(k))).collect();
         fs::write(folder.path().join("rod.csv"), format!("x,y,z,radius\n{rod}")).unwrap();

@@ -1,6 +1,7 @@
 //! Warnings of implausible files and numbers, and everyday files that need none.
 
 use super::with_particles_of_a_file;
+use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{Done, tool};
 use std::fs;
 use tempfile::tempdir;
@@ -8,8 +9,7 @@ use tempfile::tempdir;
 const ONE: &str = "x,y,z,radius\n0,0,0.1,0.01\n";
 
 fn checked(scene: &str, csv: &str) -> Done {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), scene).unwrap();
+    let folder = folder(&[("s.toml", scene)]);
     fs::write(folder.path().join("p.csv"), csv).unwrap();
     tool(folder.path(), "dem-run", &["s.toml", "--check"])
 }
@@ -198,8 +198,7 @@ fn grains_beyond_the_open_side_of_a_box_are_told() {
 /// Of a key that is set twice the last value counts, and a warning has both.
 #[test]
 fn a_key_that_is_set_twice() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("s.toml"), super::SCENE).unwrap();
+    let folder = folder(&[("s.toml", super::SCENE)]);
     let sets = ["--set", "time.until=0.5", "--set", "gravity=[0,0,0]", "--set", "time.until=0.25"];
     let done = tool(folder.path(), "dem-run", &[&["s.toml", "--check"], &sets[..]].concat());
     assert_eq!(done.code, 0, "{}", done.stderr);

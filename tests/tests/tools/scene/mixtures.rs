@@ -1,10 +1,9 @@
 //! Mixtures: sizes and materials with shares, poured through one place.
 
+use grainpipe_tests::recorded::frames;
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
-use std::fs;
 use std::path::Path;
-use stream::mcap::{Event, Reader};
 
 const HEAD: &str = r#"gravity = [0, 0, -9.81]
 [time]
@@ -32,11 +31,7 @@ material = "ore"
 
 /// Mass of the grains of the last frame that a test picks by diameter [m] and material.
 fn mass(run: &Path, pick: impl Fn(f64, f64) -> bool) -> f64 {
-    let last = Reader::new(fs::File::open(run).unwrap()).filter_map(|event| match event.unwrap() {
-        Event::Points { topic, table, .. } if topic == "/particles" => Some(table),
-        _ => None,
-    });
-    let table = last.last().unwrap();
+    let table = frames(run).pop().unwrap();
     let columns = record::Columns { name: "run", table: &table };
     let (radii, materials) = (columns.numbers("radius").unwrap(), columns.numbers("material").unwrap());
     let mass = |(r, m): (&f64, &f64)| {

@@ -1,6 +1,7 @@
 //! Numbers with units, lists for planes and shapes, and drawings in millimetres.
 
 use super::SCENE;
+use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::{succeed, tool};
 use scene::Scene;
 use scene::keys::SceneKeys;
@@ -101,8 +102,7 @@ fn a_drawing_in_millimetres_is_the_drawing_in_metres() {
 
 #[test]
 fn gravity_in_millimetres_is_warned_of() {
-    let folder = tempdir().expect("a folder");
-    fs::write(folder.path().join("s.toml"), SCENE.replace("-9.81", "-9810")).expect("written");
+    let folder = folder(&[("s.toml", SCENE.replace("-9.81", "-9810"))]);
     let done = succeed(folder.path(), "dem-run", &["s.toml", "--check"]);
     assert!(done.stderr.contains("gravity") && done.stderr.contains("mm/s²"), "{}", done.stderr);
 }

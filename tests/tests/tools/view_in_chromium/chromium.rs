@@ -11,6 +11,7 @@ use std::{
     time::{Duration, Instant},
 };
 use tempfile::TempDir;
+use view::Page;
 
 /// How long to wait for any answer.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -34,9 +35,32 @@ pub struct Chromium {
     /// What the page reported without being asked.
     pub events: Vec<Value>,
     _profile: TempDir,
+    /// Folder of the page.
+    _page: Option<TempDir>,
+}
+
+/// Writes a page into a separate folder.
+pub fn written(name: &str, page: &Page) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join(name);
+    std::fs::write(&file, page.html().expect("a page")).expect("written");
+    (folder, file)
 }
 
 impl Chromium {
+    /// Starts it, and shows a page that lies in a folder; nothing where it is not installed.
+    pub fn showing(page: impl FnOnce() -> (TempDir, PathBuf)) -> Option<Chromium> {
+        let Some(program) = find() else {
+            grainpipe_tests::skip("chromium");
+            return None;
+        };
+        let (folder, file) = page();
+        let mut browser = Chromium::start(&program, &[]);
+        browser.show(&file);
+        browser._page = Some(folder);
+        Some(browser)
+    }
+
     /// Starts it with more arguments, and watches the page's requests and errors.
     pub fn start(program: &Path, more: &[&str]) -> Chromium {
         let profile = tempfile::tempdir().expect("a folder for the profile");
@@ -74,8 +98,16 @@ impl Chromium {
                 message.clear();
             }
         });
-        let mut browser =
-            Chromium { child, to, from, session: Value::Null, asked: 0, events: vec![], _profile: profile };
+        let mut browser = Chromium {
+            child,
+            to,
+            from,
+            session: Value::Null,
+            asked: 0,
+            events: vec![],
+            _profile: profile,
+            _page: None,
+        };
         browser.attach();
         browser
     }

@@ -25,10 +25,7 @@ fn page(spheres: &[[f64; 4]], clump: bool, shapes: &[ClumpRecord]) -> (TempDir, 
     let layer = page.layer(Role::Grains, "some");
     page.clumps(layer, shapes);
     page.push(layer, 0.0, &table(spheres, clump)).expect("a whole table");
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("some.html");
-    std::fs::write(&file, page.html().expect("a page")).expect("written");
-    (folder, file)
+    chromium::written("some.html", &page)
 }
 
 /// Colours along a line at the height of z = 0, from x = −1 to 1 in 200 steps.

@@ -53,10 +53,7 @@ fn page(time: f64) -> (TempDir, PathBuf) {
         Diagram { label: "kinetic energy [J]".into(), curves: vec![curve("", 2.0)] },
         Diagram { label: "force on walls [N]".into(), curves: vec![curve("lid", 1.0), curve("floor", -3.0)] },
     ]);
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("extras.html");
-    std::fs::write(&file, page.html().expect("a page")).expect("written");
-    (folder, file)
+    chromium::written("extras.html", &page)
 }
 
 fn sum(browser: &mut Chromium) -> serde_json::Value {
@@ -65,11 +62,7 @@ fn sum(browser: &mut Chromium) -> serde_json::Value {
 
 #[test]
 fn bonds_arrows_and_sizes_are_drawn_and_can_be_hidden() {
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page(0.0);
-    let mut browser = Chromium::start(&program, &[]);
-    browser.open(&file);
-    browser.wait_for("window.grainpipe?.ready === true");
+    let Some(mut browser) = Chromium::showing(|| page(0.0)) else { return };
     let all = sum(&mut browser);
     let mut without = Vec::new();
     for name in ["bonds", "velocity"] {
@@ -113,8 +106,7 @@ fn diagrams_follow_the_frame_and_choose_it() {
     let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
     let (_folder, file) = page(0.0);
     let mut browser = Chromium::start(&program, &["--window-size=1280,900"]);
-    browser.open(&file);
-    browser.wait_for("window.grainpipe?.ready === true");
+    browser.show(&file);
     let values =
         "[...document.querySelectorAll('#plots p')].map((p) => p.textContent.replace(/\\s+/g, ' ').trim())";
     browser.value("grainpipe.show(3); grainpipe.pixels(); redraw(1, false)");
@@ -143,8 +135,7 @@ fn a_floor_does_not_push_the_grains_into_a_corner() {
     let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
     let (_folder, file) = page(0.0);
     let mut browser = Chromium::start(&program, &["--window-size=700,500"]);
-    browser.open(&file);
-    browser.wait_for("window.grainpipe?.ready === true");
+    browser.show(&file);
     let share = browser.value(
         "(() => { const y = run.layers[0].outline.map((p) => seenAt(minus3(p, middle)).y); \
          return (Math.max(...y) - Math.min(...y)) / innerHeight; })()",
@@ -155,10 +146,6 @@ fn a_floor_does_not_push_the_grains_into_a_corner() {
 /// A frame is written at the end of a step, a little late: the one meant by a time is the nearest.
 #[test]
 fn the_frame_nearest_to_the_time_asked_for_is_shown_first() {
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page(0.0299);
-    let mut browser = Chromium::start(&program, &[]);
-    browser.open(&file);
-    browser.wait_for("window.grainpipe?.ready === true");
+    let Some(mut browser) = Chromium::showing(|| page(0.0299)) else { return };
     assert_eq!(browser.value("[grainpipe.frame, grainpipe.playing]"), json!([3, false]));
 }

@@ -61,10 +61,7 @@ fn page() -> (TempDir, PathBuf) {
     for frame in 0..FRAMES {
         page.push(run, frame as f64 * GAP, &table(frame)).expect("a whole table");
     }
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("block.html");
-    std::fs::write(&file, page.html().expect("a page")).expect("written");
-    (folder, file)
+    chromium::written("block.html", &page)
 }
 
 /// Where a place is seen in the window [pixel].
@@ -116,10 +113,7 @@ fn corner(time: f64) -> Grain {
 
 #[test]
 fn a_click_reads_back_the_grain_and_the_camera_follows_it() {
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page();
-    let mut browser = Chromium::start(&program, &[]);
-    browser.show(&file);
+    let Some(mut browser) = Chromium::showing(page) else { return };
     picks(&mut browser, corner(0.0));
     assert!(browser.text("byId('card').innerText").contains(&format!("Grain {}", corner(0.0).id)));
     // Not followed, it moves in the window; followed, it stays where it is seen.
@@ -141,10 +135,7 @@ fn a_click_reads_back_the_grain_and_the_camera_follows_it() {
 
 #[test]
 fn a_grain_that_has_left_is_told_and_found_again() {
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page();
-    let mut browser = Chromium::start(&program, &[]);
-    browser.show(&file);
+    let Some(mut browser) = Chromium::showing(page) else { return };
     browser.value("grainpipe.look('bottom')");
     browser.value("grainpipe.look('left')");
     browser.value("camera.look([-1, -1, -1]); fitView()");
@@ -162,10 +153,7 @@ fn a_grain_that_has_left_is_told_and_found_again() {
 /// What the slice takes away is neither drawn nor picked.
 #[test]
 fn a_slice_shows_and_picks_what_was_inside() {
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page();
-    let mut browser = Chromium::start(&program, &[]);
-    browser.show(&file);
+    let Some(mut browser) = Chromium::showing(page) else { return };
     browser.value("grainpipe.look('front')");
     let whole = browser.value("grainpipe.pixels().sum");
     let at = pixel(&mut browser, grains(0.0)[5].place);
@@ -255,10 +243,7 @@ fn light_and_dark_follow_the_system_until_told_otherwise() {
 /// The list of keys opens by `?` and names every key that does something.
 #[test]
 fn the_keys_are_listed() {
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page();
-    let mut browser = Chromium::start(&program, &[]);
-    browser.show(&file);
+    let Some(mut browser) = Chromium::showing(page) else { return };
     browser.key("?");
     assert_eq!(browser.value("byId('help').open"), json!(true));
     let listed = browser.text("byId('keys').innerText");

@@ -21,10 +21,7 @@ fn page() -> (TempDir, PathBuf) {
     table.push("radius", Values::F64(SPHERES.map(|(_, r)| r).to_vec())).expect("two rows");
     table.push("material", Values::U16(vec![0, 1])).expect("two rows");
     page.push(layer, 0.0, &table).expect("a whole table");
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("two.html");
-    std::fs::write(&file, page.html().expect("a page")).expect("written");
-    (folder, file)
+    chromium::written("two.html", &page)
 }
 
 /// How far along a ray from `eye` sphere `n` is met; nothing when it is missed. And by how much of its radius it is
@@ -87,10 +84,7 @@ fn agrees(browser: &mut Chromium, what: &str) {
 
 #[test]
 fn spheres_that_intersect_are_drawn_as_geometry_has_it() {
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page();
-    let mut browser = Chromium::start(&program, &[]);
-    browser.show(&file);
+    let Some(mut browser) = Chromium::showing(page) else { return };
     assert!(browser.value("painter.most").as_f64().is_some_and(|most| most >= 64.0));
     agrees(&mut browser, "from the front");
     // Small ones, which are points, and such as reach out of the window.
@@ -110,10 +104,7 @@ fn spheres_that_intersect_are_drawn_as_geometry_has_it() {
 /// Cut through, a sphere shows a flat face where the plane is.
 #[test]
 fn a_sliced_sphere_has_a_flat_face() {
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page();
-    let mut browser = Chromium::start(&program, &[]);
-    browser.show(&file);
+    let Some(mut browser) = Chromium::showing(page) else { return };
     browser.value("camera.flat = true; state.cutAxis = 1; state.cutSide = -1; state.cutAt = 0.5; showCut(); redraw(1, false)");
     let depth = "(() => { const s = cutOf(); return s.most * s.normal[1] + middle[1]; })()";
     let plane = browser.number(depth);
@@ -134,10 +125,7 @@ fn a_sliced_sphere_has_a_flat_face() {
 /// Many spheres become points by themselves, and the page says so.
 #[test]
 fn the_level_of_detail_is_chosen_and_told() {
-    let Some(program) = chromium::find() else { return grainpipe_tests::skip("chromium") };
-    let (_folder, file) = page();
-    let mut browser = Chromium::start(&program, &[]);
-    browser.show(&file);
+    let Some(mut browser) = Chromium::showing(page) else { return };
     let chosen = |browser: &mut Chromium, count: &str, moving: bool| {
         browser.value(&format!("window.counted ??= painter.total; painter.total = () => {count}; [painter.asDots({moving}, 0), painter.total = counted][0]"))
             == serde_json::json!(true)

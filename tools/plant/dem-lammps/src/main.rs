@@ -1,7 +1,6 @@
 //! Runs a scene on LAMMPS: the same scene, the same run MCAP.
 
 mod args;
-mod kept;
 
 use anyhow::Context;
 use args::Args;
@@ -167,7 +166,7 @@ fn simulate(
     engine: &Engine,
 ) -> anyhow::Result<Report> {
     let out = args.output.open_long()?;
-    let (keep, part) = (out.keeper(), kept::as_named(&args.output, out.part()));
+    let (keep, part) = (out.keeper(), args.output.name_of_part(&out));
     let how = out.how();
     cli::stop_in_order();
     let settings =
@@ -202,7 +201,10 @@ fn simulate(
         lammps::run(scene, plan, prepared, origin, out, settings, &mut hear).map_err(|e| written(e, args));
     let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
     drop(bar);
-    let outcome = done.map_err(|e| kept::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
+    let outcome = done.map_err(|e| {
+        let part = part.as_deref().filter(|_| keep.kept());
+        cli::with_part(e, part, saved, |_| "dem-view shows it".to_owned())
+    })?;
     outcome.warnings.iter().for_each(|warning| cli::warn(warning));
     let summary = format!(
         "{} of {:.3e} s to {} s on LAMMPS, {}, {}",

@@ -235,7 +235,7 @@ fn simulate(
 ) -> anyhow::Result<Report> {
     let device = args.device.map(Accelerator::open).transpose()?;
     let out = args.output.open_long()?;
-    let (keep, part) = (out.keeper(), parts::as_named(&args.output, out.part()));
+    let (keep, part) = (out.keeper(), args.output.name_of_part(&out));
     let first = u64::from(resume.is_none());
     let (provenance, how) = (cli::provenance(plan.inputs.clone()), out.how());
     let (watched, ledger) = (args.progress, plan.setup.ledger);
@@ -253,7 +253,10 @@ fn simulate(
     let done = run(scene, plan, out, settings, &mut hear).map_err(|e| written(e, args));
     let done = done.and_then(|(outcome, out)| out.commit().map(|()| outcome));
     drop(watch);
-    let outcome = done.map_err(|e| parts::leaves(e, part.as_deref().filter(|_| keep.kept()), saved))?;
+    let outcome = done.map_err(|e| {
+        let part = part.as_deref().filter(|_| keep.kept());
+        cli::with_part(e, part, saved.time, |part| saved.use_of(part))
+    })?;
     warn(&outcome);
     let report = Report::new(summary(&outcome, ledger)).with_all(&outcome);
     let report = report.with("until", scene.keys.time.until);

@@ -1,7 +1,7 @@
 //! Runs that did not come to their end: what they leave as `NAME.part`, and how it is found again.
 
 use crate::continued;
-use cli::{NotRenamed, Output, Source};
+use cli::{Output, Source};
 use std::path::{Path, PathBuf};
 
 /// Says which parts of the output are there, but for the one that is resumed.
@@ -66,13 +66,6 @@ pub fn resumed(source: &Source) -> anyhow::Result<Source> {
     }
 }
 
-/// The path of a part as the user would write it; that of a link lies beside its target.
-pub fn as_named(output: &Output, part: Option<&Path>) -> Option<PathBuf> {
-    let (path, part) = (output.path()?, part?);
-    let named = path.with_file_name(part.file_name()?);
-    Some(if path.is_symlink() { part.to_owned() } else { named })
-}
-
 /// How far the part of a run that failed is of use.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Saved {
@@ -82,13 +75,9 @@ pub struct Saved {
     pub resumes: bool,
 }
 
-/// What a run that fails says of the part that it leaves.
-pub fn leaves(error: anyhow::Error, part: Option<&Path>, saved: Saved) -> anyhow::Error {
-    // A complete output that has no name says so itself.
-    let whole = error.chain().any(|cause| cause.is::<NotRenamed>());
-    let Some(part) = part.filter(|part| part.is_file() && !whole) else { return error };
-    let time = geom::Shown(saved.time);
-    let use_of = if saved.resumes { continued::sentence(part, &[]) } else { "dem-view shows it".to_owned() };
-    let part = part.display();
-    error.context(format!("the run until t = {time} s is kept in {part} ({use_of})"))
+impl Saved {
+    /// What the part is good for.
+    pub fn use_of(&self, part: &Path) -> String {
+        if self.resumes { continued::sentence(part, &[]) } else { "dem-view shows it".to_owned() }
+    }
 }

@@ -11,7 +11,6 @@ use anyhow::{Context, anyhow};
 use args::Args;
 use cli::{Progress, Report};
 use measure::{Row, Run, Summary};
-use std::io::Write;
 use std::process::ExitCode;
 use stream::mcap::Reader;
 
@@ -51,9 +50,8 @@ fn measure_run(args: Args) -> anyhow::Result<Report> {
     };
     kept.append(&mut rows);
     if let Some(file) = &args.plot {
-        let mut out = cli::OutputStream::file(file)?;
-        out.write_all(&plot::chart(file, &observer.chart(&kept)).map_err(|e| anyhow!("--plot {e}"))?)?;
-        out.commit()?;
+        let chart = plot::chart(file, &observer.chart(&kept)).map_err(|e| anyhow!("--plot {e}"))?;
+        cli::OutputStream::write_file(file, &chart)?;
     }
     Ok(report(&what, count, &summary))
 }

@@ -3,13 +3,12 @@
 use crate::Entry;
 use crate::args::Args;
 use anyhow::Context;
+use cli::OutputStream;
 use geom::Vec3;
 use photos::Camera;
 use photos::rendered::Studio;
 use photos::sheet::{Thumbnail, sheet};
 use std::fmt::Write as _;
-use std::io::Write;
-use std::path::Path;
 use stream::ply::Encoding;
 
 /// Pictures of a sheet, at most.
@@ -24,7 +23,7 @@ pub fn write(args: &Args, all: &[Entry], names: &[String]) -> anyhow::Result<()>
     let progress = cli::Progress::new("stones", all.len() as u64);
     let mut pictures = Vec::new();
     for (entry, name) in all.iter().zip(names) {
-        let mut out = cli::OutputStream::file(&folder.join(name).with_extension("ply"))?;
+        let mut out = OutputStream::file(&folder.join(name).with_extension("ply"))?;
         let says = [format!("{}: {}", entry.kind, entry.source)];
         mesh::write_ply(&mut out, &entry.stone.mesh, &says, Encoding::BinaryLittleEndian)?;
         out.commit()?;
@@ -36,15 +35,9 @@ pub fn write(args: &Args, all: &[Entry], names: &[String]) -> anyhow::Result<()>
     if all.len() > PICTURES {
         cli::warn(&format!("sheet.png shows the first {PICTURES} stones"));
     }
-    file(&folder.join("table.csv"), table(all, names).as_bytes())?;
+    OutputStream::write_file(&folder.join("table.csv"), table(all, names).as_bytes())?;
     let variants: Vec<bool> = all.iter().map(|e| e.kind == "variant").collect();
-    file(&folder.join("sheet.png"), &sheet(&pictures, &variants)?)
-}
-
-fn file(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let mut out = cli::OutputStream::file(path)?;
-    out.write_all(bytes)?;
-    out.commit()
+    OutputStream::write_file(&folder.join("sheet.png"), &sheet(&pictures, &variants)?)
 }
 
 /// One stone a line.

@@ -7,7 +7,6 @@ use photos::mask::{Found, among};
 use photos::sheet::Thumbnail;
 use photos::{Mask, MaskSettings, MaskWarning, Photograph, find_mask, photograph};
 use rayon::prelude::*;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Photographs in memory at a time, at most.
@@ -114,9 +113,7 @@ fn one(args: &Args, settings: &MaskSettings, path: &Path) -> anyhow::Result<Done
         let note = Note::new(stamp, &mask)?;
         mask.found = note.as_ref().map(|note| note.found);
         let png = kept::png(&mask, note.as_ref())?;
-        let mut out = cli::OutputStream::file(&file)?;
-        out.write_all(&png)?;
-        out.commit()?;
+        cli::OutputStream::write_file(&file, &png)?;
     }
     Ok(Done {
         origin,
@@ -167,7 +164,5 @@ pub fn warn(photographs: &[PathBuf], done: &[Done]) -> Vec<bool> {
 pub fn write_sheet(path: &Path, done: &[Done], warned: &[bool]) -> anyhow::Result<()> {
     let thumbnails: Vec<Thumbnail> = done.iter().filter_map(|d| d.thumbnail.clone()).collect();
     let png = photos::sheet::sheet(&thumbnails, warned).context("--sheet")?;
-    let mut out = cli::OutputStream::file(path)?;
-    out.write_all(&png)?;
-    out.commit()
+    cli::OutputStream::write_file(path, &png)
 }

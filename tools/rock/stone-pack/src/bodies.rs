@@ -43,5 +43,5 @@ pub fn write(
             c.z
         );
     }
-    crate::outputs::file(path, text.as_bytes())
+    cli::OutputStream::write_file(path, text.as_bytes())
 }

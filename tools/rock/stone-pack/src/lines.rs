@@ -29,7 +29,7 @@ pub fn write(path: &Path, args: &Args, grains: &Grains, density: Option<f64>) ->
         record::name::toml(args.material()),
         geom::Shown(density)
     );
-    crate::outputs::file(path, text.as_bytes())
+    cli::OutputStream::write_file(path, text.as_bytes())
 }
 
 /// The grains' file as the scene names it: relative to the scene where it lies below its folder.

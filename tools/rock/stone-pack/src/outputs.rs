@@ -3,9 +3,8 @@
 use crate::args::Args;
 use crate::inputs::Grains;
 use anyhow::Context;
+use cli::OutputStream;
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::path::Path;
 use stones::{Library, Packing};
 use stream::number_type::NumberType;
 use stream::ply::{self, Element, Encoding, ListColumn, Ply};
@@ -20,21 +19,14 @@ pub fn write(args: &Args, grains: &Grains, library: &Library, packing: &Packing)
         .with_context(|| format!("{name}: cannot write"))?;
     out.commit()?;
     if let Some(path) = &args.places {
-        file(path, places(library, packing).as_bytes())?;
+        OutputStream::write_file(path, places(library, packing).as_bytes())?;
     }
     if let Some(path) = &args.surfaces {
         let mut bytes = Vec::new();
         ply::write(&mut bytes, &surfaces(library, packing)?, Encoding::BinaryLittleEndian)?;
-        file(path, &bytes)?;
+        OutputStream::write_file(path, &bytes)?;
     }
     Ok(())
-}
-
-/// Writes a file that appears when it is complete.
-pub fn file(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let mut out = cli::OutputStream::file(path)?;
-    out.write_all(bytes).with_context(|| path.display().to_string())?;
-    out.commit()
 }
 
 /// The grains; with rigid stones those of the soil only.

@@ -8,7 +8,6 @@ use anyhow::Context;
 use args::Args;
 use cli::Report;
 use sampling::{Amount, sample};
-use std::io::Write;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -16,7 +15,7 @@ fn main() -> ExitCode {
 }
 
 fn bluenoise_sample(args: Args) -> anyhow::Result<Report> {
-    check_ending(&args.output.to)?;
+    args.output.to.check_ending(&["ply"])?;
     let settings = args.settings()?;
     if let Some(plot) = &args.plot {
         ::plot::check_name(plot).map_err(|e| cli::usage(format!("--plot {e}")))?;
@@ -90,20 +89,4 @@ fn missed(amount: &Amount, after: usize, density: Option<f64>) {
         }
         _ => {}
     }
-}
-
-/// Writes a picture, which appears when it is complete.
-fn write_picture(path: &std::path::Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let mut out = cli::OutputStream::file(path)?;
-    out.write_all(bytes).with_context(|| path.display().to_string())?;
-    out.commit()
-}
-
-/// Refuses a file name of another format than PLY.
-fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
-    let ending = output.path().and_then(std::path::Path::extension);
-    if ending.is_none() || output.has_extension("ply") {
-        return Ok(());
-    }
-    Err(cli::usage(format!("-o {}: the output is PLY: use a name that ends in .ply", output.name())))
 }

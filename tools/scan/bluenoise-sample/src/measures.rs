@@ -12,7 +12,7 @@ pub fn measure(report: Report, before: &Cloud, after: &Cloud, plot: Option<&Path
         match &spectrum {
             Some(spectrum) => {
                 let picture = crate::plot::draw(path, spectrum)?;
-                crate::write_picture(path, &picture)?;
+                cli::OutputStream::write_file(path, &picture)?;
             }
             None => cli::warn("--plot: too few points of a sheet for a spectrum: no plot is drawn"),
         }

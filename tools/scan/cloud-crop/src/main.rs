@@ -95,7 +95,7 @@ fn main() -> ExitCode {
 }
 
 fn crop(args: Args) -> anyhow::Result<Report> {
-    check_ending(&args.output.to)?;
+    args.output.to.check_ending(&["ply"])?;
     let rules = rules(&args)?;
     if !args.further.is_empty() {
         return cropped(&args, &rules, &merged(&args)?);
@@ -219,13 +219,4 @@ fn positive(text: &str) -> Result<f64, String> {
 fn grazing(text: &str) -> Result<f64, String> {
     let degrees = geom::number::positive(text).ok().filter(|d| *d < 90.0);
     degrees.ok_or_else(|| "give an angle above 0 and below 90 degrees, such as 75".into())
-}
-
-/// Refuses a file name of another format than PLY.
-fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
-    let ending = output.path().and_then(std::path::Path::extension);
-    if ending.is_none() || output.has_extension("ply") {
-        return Ok(());
-    }
-    Err(cli::usage(format!("-o {}: the output is PLY: use a name that ends in .ply", output.name())))
 }

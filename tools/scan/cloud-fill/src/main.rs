@@ -70,7 +70,7 @@ fn main() -> ExitCode {
 }
 
 fn fill(args: Args) -> anyhow::Result<Report> {
-    check_ending(&args.output.to)?;
+    args.output.to.check_ending(&["ply"])?;
     if args.fill == Method::Grid {
         args.seed.none("--fill grid")?;
     }
@@ -216,13 +216,4 @@ fn between(report: &cloud::fill::Report) {
         widest.width,
         100.0 * step
     ));
-}
-
-/// Refuses a file name of another format than PLY.
-fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
-    let ending = output.path().and_then(std::path::Path::extension);
-    if ending.is_none() || output.has_extension("ply") {
-        return Ok(());
-    }
-    Err(cli::usage(format!("-o {}: the output is PLY: use a name that ends in .ply", output.name())))
 }

@@ -19,7 +19,7 @@ fn main() -> ExitCode {
 }
 
 fn wallgen(args: Args) -> anyhow::Result<Report> {
-    check_ending(&args.output.to)?;
+    args.output.to.check_ending(&["mcap", "ply"])?;
     args.check_used()?;
     let mut settings = args.settings()?;
     let mut regions = args.regions()?;
@@ -185,16 +185,4 @@ fn summary(report: &WallReport, settings: &WallSettings, drawn: Option<&DrawnRep
         "{spheres} wall spheres of radius {mean} m, spacing {spacing} m, \
          dents {low} to {high} m (mean {middle}){asked}{apart}"
     )
-}
-
-/// Refuses a file name of another format than MCAP or PLY.
-fn check_ending(output: &cli::Output) -> anyhow::Result<()> {
-    let ending = output.path().and_then(std::path::Path::extension);
-    if ending.is_none() || output.has_extension("mcap") || output.has_extension("ply") {
-        return Ok(());
-    }
-    Err(cli::usage(format!(
-        "-o {}: the output is MCAP or PLY: use a name that ends in .mcap or .ply",
-        output.name()
-    )))
 }

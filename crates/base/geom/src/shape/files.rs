@@ -1,4 +1,4 @@
-//! Files that shapes name: which they are, how they are read, and what is done to a mesh before it is a shape.
+//! Files that shapes name: how they are found and read, and how a mesh is scaled and placed.
 //!
 //! ```text
 //! mesh:FILE,units=mm,transform=MATRIX.txt       options in any order, each once; first the unit, then the matrix
@@ -11,14 +11,14 @@ use std::fs::File;
 use std::io::Read;
 use std::path::PathBuf;
 
-/// The file of a prism or a matrix is read so far [B].
+/// Largest file of a prism or a matrix [B].
 const LARGEST_FILE: u64 = 64 << 20;
-/// What may stand behind the file of a mesh.
+/// Options that may follow the file of a mesh.
 const OPTIONS: [&str; 3] = ["units", "scale", "transform"];
 
-/// How the files of shapes are read; a function that reads a mesh is one, for names relative to the current folder.
+/// Reads the files of shapes. A function that reads a mesh is such a reader, for names relative to the current folder.
 pub trait ShapeFiles {
-    /// Where a file is that stands in the text of a shape.
+    /// The path of a file that the text of a shape names.
     fn path(&self, file: &str) -> PathBuf {
         PathBuf::from(file)
     }
@@ -26,7 +26,7 @@ pub trait ShapeFiles {
     /// Reads a mesh [m].
     ///
     /// # Errors
-    /// The whole reason, in one line.
+    /// The reason, with its causes, in one line.
     fn mesh(&self, file: &str) -> Result<TriMesh, String>;
 }
 
@@ -44,7 +44,7 @@ pub(super) fn bytes(file: &str, files: &dyn ShapeFiles) -> Result<Vec<u8>, Strin
     read.map(|_| bytes).map_err(|e| format!("cannot read {file}: {e}"))
 }
 
-/// What stands behind `mesh:`.
+/// The text behind `mesh:`, split.
 struct MeshText<'a> {
     file: &'a str,
     /// Name and value of each option.
@@ -65,14 +65,14 @@ impl<'a> MeshText<'a> {
         MeshText { file: &rest[..starts.first().copied().unwrap_or(rest.len())], options: options.collect() }
     }
 
-    /// The file of its matrix, unless that stands here.
+    /// The file of its matrix, unless the text itself gives the matrix.
     fn matrix(&self) -> Option<&'a str> {
         let mut given = self.options.iter().filter(|[name, _]| *name == "transform").map(|[_, value]| *value);
         given.rfind(|value| !Transform::is_numbers(value))
     }
 }
 
-/// Kind and file of a text that names one: before the colon, behind it.
+/// Kind and file of a text that names a file: the parts before and behind the colon.
 fn named(text: &str) -> Option<(&str, &str)> {
     text.strip_prefix('!')
         .unwrap_or(text)
@@ -92,7 +92,7 @@ pub fn files_of(text: &str) -> Vec<&str> {
     }
 }
 
-/// The same shape with other names of its files.
+/// The same shape with its files renamed.
 pub fn with_files(text: &str, of: impl Fn(&str) -> String) -> String {
     let Some((kind, rest)) = named(text) else { return text.to_owned() };
     let head = &text[..text.len() - rest.len()];
@@ -108,7 +108,7 @@ pub fn with_files(text: &str, of: impl Fn(&str) -> String) -> String {
     format!("{head}{}{}", of(mesh.file), mesh.options.iter().map(|o| option(*o)).collect::<String>())
 }
 
-/// Reads the mesh of a shape, in metres and where its matrix puts it.
+/// Reads the mesh of a shape, converts it to metres, and applies its matrix.
 pub(super) fn mesh(text: &ShapeText<'_>, files: &dyn ShapeFiles) -> Result<TriMesh, ShapeError> {
     let named = MeshText::new(text.rest);
     let load = |why| ShapeError::Load { text: text.owned(), why };

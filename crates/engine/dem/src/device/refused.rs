@@ -21,7 +21,7 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     let enters = !setup.inlets.is_empty();
     let follows = |zone: &Zone| zone.motion == ZoneMotion::Recorded;
     refuse(setup.inlets.iter().any(follows), "grains that come in along recorded paths");
-    // What has been taken out stays in the lists of a device.
+    // Particles that were removed stay in the lists of a device.
     let taken_out = setup.guards.zones == CameBack::IsRemoved && setup.guards.cuts > 0;
     refuse(enters && taken_out, "grains that are taken out where they go back through an inlet");
     refuse(state.sleepers.is_some(), "sleep");

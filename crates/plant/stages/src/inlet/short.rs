@@ -2,9 +2,9 @@
 
 use geom::Shown;
 
-/// The warning where the record of `[[inlet]]` `index` ended at `last` [s] while particles still came in, before the run does, at `end` [s].
+/// The warning for a record of `[[inlet]]` number `index` that ends at `last` [s], while particles still come in and before the run ends at `end` [s].
 ///
-/// It has the key, not the name of the file: the text is also in the output, whose bytes are the same for a file and a pipe.
+/// It names the key instead of the file: the output holds this text too, and has to be the same for a file and a pipe.
 pub fn short(index: usize, last: f64, end: f64) -> Option<String> {
     (last < end * (1.0 - 1e-6)).then(|| {
         let (last, end) = (Shown(last), Shown(end));

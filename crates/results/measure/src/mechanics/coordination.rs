@@ -12,6 +12,7 @@
 
 use crate::definition::{AskError, Asked, Frames, Measure};
 use crate::observer::{NO_FRAMES, Observer};
+use crate::reading::time_slice::{Gathered, TimeSlice};
 use crate::sheet::{Chart, Curve, Head, Look, Row, Summary};
 use crate::{Bonds, Contacts, Frame, MeasureError, Partner, Run, RunMessage};
 use geom::Vec3;
@@ -184,10 +185,7 @@ const FEW: MeasureError = MeasureError::FewGrains { what: "a contact number", mo
 /// Measures contact numbers over time.
 #[derive(Default)]
 pub struct ContactNumbers {
-    /// What has come of the present time.
-    frame: Option<Frame>,
-    contacts: Option<Contacts>,
-    bonds: Option<Bonds>,
+    gathered: Gathered,
     recorded: bool,
     last: Option<(Coordination, f64)>,
     /// Most grains of a frame.
@@ -195,11 +193,7 @@ pub struct ContactNumbers {
 }
 
 impl ContactNumbers {
-    /// What has come of another time than this one is complete.
-    fn settle(&mut self, now: Option<f64>, rows: &mut Vec<Row>) {
-        let Some(frame) = self.frame.take_if(|frame| Some(frame.time) != now) else { return };
-        let contacts = self.contacts.take().filter(|c| c.time == frame.time);
-        let bonds = self.bonds.take().filter(|b| b.time == frame.time);
+    fn count(&mut self, TimeSlice { frame, contacts, bonds }: TimeSlice, rows: &mut Vec<Row>) {
         let c = match &contacts {
             Some(contacts) => Coordination::of_contacts(&frame, contacts, bonds.as_ref()),
             None => Coordination::of_frame(&frame, bonds.as_ref()),
@@ -234,24 +228,16 @@ impl Observer for ContactNumbers {
     }
 
     fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let time = match &message {
-            RunMessage::Frame(frame) => frame.time,
-            RunMessage::Contacts(contacts) => contacts.time,
-            RunMessage::Bonds(bonds) => bonds.time,
-            _ => return Ok(()),
-        };
-        self.settle(Some(time), rows);
-        match message {
-            RunMessage::Frame(frame) => self.frame = Some(frame),
-            RunMessage::Contacts(contacts) => self.contacts = Some(contacts),
-            RunMessage::Bonds(bonds) => self.bonds = Some(bonds),
-            _ => {}
+        if let Some(slice) = self.gathered.add(message) {
+            self.count(slice, rows);
         }
         Ok(())
     }
 
     fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        self.settle(None, rows);
+        if let Some(slice) = self.gathered.end() {
+            self.count(slice, rows);
+        }
         let (c, time) = self.last.as_ref().ok_or(NO_FRAMES)?;
         if self.grains == 0 {
             return Err(FEW);

@@ -12,6 +12,7 @@
 
 use crate::definition::{ArgumentKind, AskError, Asked, Frames, Measure};
 use crate::observer::{NO_CONTACTS, Observer};
+use crate::reading::time_slice::{Gathered, TimeSlice};
 use crate::region::Region;
 use crate::sheet::{Chart, Head, Row, Summary};
 use crate::{Bonds, Contacts, Frame, MeasureError, Partner, Run, RunMessage};
@@ -44,10 +45,7 @@ impl Member {
 /// Measures the mean stress in a shape.
 pub struct Stress {
     region: Region,
-    /// What has come of the present time.
-    frame: Option<Frame>,
-    contacts: Option<Contacts>,
-    bonds: Option<Bonds>,
+    gathered: Gathered,
     last: Option<(f64, Matrix3<f64>)>,
 }
 
@@ -58,19 +56,11 @@ impl Stress {
     /// A shape without end or without room.
     pub fn new(region: Region) -> Result<Stress, MeasureError> {
         region.may_have_room()?;
-        Ok(Stress { region, frame: None, contacts: None, bonds: None, last: None })
+        Ok(Stress { region, gathered: Gathered::default(), last: None })
     }
 
-    /// What has come of another time than this one is complete.
-    fn settle(&mut self, now: Option<f64>, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let time = self.frame.as_ref().map(|f| f.time);
-        if time.is_none() || time == now {
-            return Ok(());
-        }
-        let (frame, contacts, bonds) = (self.frame.take(), self.contacts.take(), self.bonds.take());
-        let own = contacts.filter(|c| Some(c.time) == time);
-        if let (Some(frame), Some(contacts)) = (frame, own) {
-            let bonds = bonds.filter(|b| b.time == frame.time);
+    fn add(&mut self, slice: Option<TimeSlice>, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
+        if let Some(TimeSlice { frame, contacts: Some(contacts), bonds }) = slice {
             let stress = self.stress(&frame, &contacts, bonds.as_ref())?;
             self.last = Some((frame.time, stress));
             rows.push(row(frame.time, &stress));
@@ -128,24 +118,13 @@ impl Observer for Stress {
     }
 
     fn observe(&mut self, _: &Run, message: RunMessage, rows: &mut Vec<Row>) -> Result<(), MeasureError> {
-        let time = match &message {
-            RunMessage::Frame(frame) => frame.time,
-            RunMessage::Contacts(contacts) => contacts.time,
-            RunMessage::Bonds(bonds) => bonds.time,
-            _ => return Ok(()),
-        };
-        self.settle(Some(time), rows)?;
-        match message {
-            RunMessage::Contacts(contacts) => self.contacts = Some(contacts),
-            RunMessage::Frame(frame) => self.frame = Some(frame),
-            RunMessage::Bonds(bonds) => self.bonds = Some(bonds),
-            _ => {}
-        }
-        Ok(())
+        let slice = self.gathered.add(message);
+        self.add(slice, rows)
     }
 
     fn end(&mut self, _: &Run, rows: &mut Vec<Row>) -> Result<Summary, MeasureError> {
-        self.settle(None, rows)?;
+        let last = self.gathered.end();
+        self.add(last, rows)?;
         let (time, stress) = self.last.ok_or(NO_CONTACTS)?;
         let [pressure, deviator] = invariants(&stress);
         Ok(Summary::default()

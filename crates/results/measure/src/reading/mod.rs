@@ -8,6 +8,7 @@ mod scene_value;
 pub mod selection;
 pub mod settled;
 pub(crate) mod table;
+pub(crate) mod time_slice;
 mod wall_record;
 
 pub use frame::{Contact, Contacts, Crossing, Frame, Partner};

@@ -1,5 +1,5 @@
-//! Thin walls in a picture: each veils what is behind it, the farther ones first. Of coloured ones that hide all behind them, the nearest
-//! counts at each sample, and what is behind it is not drawn.
+//! Thin walls in a picture, drawn from the farthest to the nearest, each over what is behind it. Where coloured opaque walls overlap, only the
+//! nearest is drawn at each sample.
 
 use super::{
     lens::{Lens, SAMPLES},
@@ -23,10 +23,10 @@ const NEAREST: f64 = 1e-3;
 /// Width of a line [pixel].
 const LINE: f64 = 1.3;
 
-/// How much a shadow on a face hides, at least [–].
+/// Least opacity of a shadow on a face [–].
 const SHADOW: f32 = 0.6;
 
-/// How much less light and shadow change the colour of a value [–].
+/// Share by which light and shadow change a colour less where it shows a value [–].
 const COLOURED: f32 = 0.6;
 
 /// How much farther than a face the lines on it may be, as a share [–].
@@ -36,13 +36,13 @@ const ON_FACE: f64 = 2e-3;
 struct Piece {
     /// Column and row [sample], and 1/z [1/m], which is linear on the picture.
     corner: [[f64; 3]; 3],
-    /// Brightness, and how much it hides [–].
+    /// Brightness and opacity [–].
     tone: [f32; 2],
     /// Its colour in full light.
     colour: [f32; 3],
-    /// Whether that shows a value: light changes it less.
+    /// Whether the colour shows a value: light changes it less.
     coloured: bool,
-    /// Nothing nearer than this is drawn: largest 1/z [1/m].
+    /// Largest 1/z that is drawn [1/m]: nothing nearer to the eye.
     farthest: f64,
     /// Planes before or behind all grains are before or behind all meshes too: 0 behind, 1 mesh, 2 before.
     rank: u8,
@@ -68,7 +68,7 @@ pub struct ThinWalls {
 }
 
 impl ThinWalls {
-    /// What is drawn of `panes`; no row is held yet.
+    /// Prepares `panes`; no row of samples is drawn yet.
     pub fn new(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> ThinWalls {
         let shade = Theme::of(options.dark).shade;
         let pieces = pieces(panes, lens, options);
@@ -136,7 +136,7 @@ impl ThinWalls {
     }
 }
 
-/// Everything to draw, far ones first.
+/// The triangles to draw, the farthest first.
 fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
     let (mut pieces, theme) = (Vec::new(), Theme::of(options.dark));
     for pane in panes {
@@ -175,7 +175,7 @@ fn pieces(panes: &[Pane], lens: &Lens, options: &PictureOptions) -> Vec<Piece> {
     pieces
 }
 
-/// A polygon, or a line, without what is nearer than `nearest` [m].
+/// Clips a polygon or a line at `nearest` [m] from the eye.
 fn before_the_eye(polygon: &[[f64; 3]], nearest: f64) -> Vec<[f64; 3]> {
     let mut kept = Vec::new();
     for (n, a) in polygon.iter().enumerate() {
@@ -230,7 +230,7 @@ impl Piece {
         }
     }
 
-    /// Whether it is a coloured face that hides all that is behind it.
+    /// Whether it is a coloured, opaque face.
     fn is_solid(&self) -> bool {
         self.coloured && self.face && self.tone[1] >= 0.999
     }

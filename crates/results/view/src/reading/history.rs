@@ -14,7 +14,7 @@ const ORIGIN: &str = "origin";
 /// When each grain was first seen.
 #[derive(Default)]
 pub struct History {
-    /// Of each id [s].
+    /// Time of the first frame with each id [s].
     first: HashMap<u64, f64>,
     /// Time of the first frame [s].
     start: Option<f64>,

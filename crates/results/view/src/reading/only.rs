@@ -21,18 +21,18 @@ pub enum Wanted {
     Material(String),
 }
 
-/// Shows the wanted grains of all layers of grains, and everything else, on something else.
+/// Passes on to another [`Show`] the wanted grains of each layer, and all that is no grain.
 pub struct Chosen<'a, S> {
     /// A grain is shown if it has a wanted value of each field.
     only: Vec<Only>,
     show: &'a mut S,
     /// Of each layer: its materials, where it has grains.
     layers: Vec<Option<Vec<String>>>,
-    /// Grains that were shown, and all of the layers that have a field, in all frames.
+    /// Over all frames: grains shown, and grains in layers that have a field to choose by.
     counts: [usize; 2],
-    /// Whether a layer of grains had the field of each.
+    /// For each choice, whether a layer of grains has its field.
     found: Vec<bool>,
-    /// Fields of a layer of grains that lacks one.
+    /// The fields of a layer of grains that lacks one of the choices.
     without: Option<Vec<String>>,
     /// What was added, by name.
     names: (Vec<(Role, String)>, Vec<String>),
@@ -53,12 +53,12 @@ impl<'a, S: Show> Chosen<'a, S> {
         }
     }
 
-    /// Grains that were shown, and all, in all frames.
+    /// Grains shown, and all grains, over all frames.
     pub fn counts(&self) -> [usize; 2] {
         self.counts
     }
 
-    /// Refuses a field that no layer of grains has, and something to hide that is not there.
+    /// Refuses a field that no layer of grains has, and a name to hide that nothing has.
     ///
     /// # Errors
     /// There are grains, and none has it; a name that nothing has.
@@ -74,7 +74,7 @@ impl<'a, S: Show> Chosen<'a, S> {
         }
     }
 
-    /// Rows of the wanted grains; `None`: the table lacks all of the fields, and is shown whole.
+    /// Rows of the wanted grains; `None` where the table lacks all of the fields and is shown whole.
     fn chosen(&mut self, kinds: &[String], table: &Table) -> Result<Option<Vec<u32>>, ViewError> {
         let mut wanted: Option<Vec<bool>> = None;
         for (only, found) in self.only.iter().zip(&mut self.found) {

@@ -18,7 +18,7 @@ pub(crate) fn bodies(table: &Table) -> Vec<Vec<u32>> {
     groups.filter(|rows| rows.len() > 1).map(<[u32]>::to_vec).collect()
 }
 
-/// Gives all members of each clump the mean of their values: one body has one colour.
+/// Gives all members of a clump the mean of their values, so that the clump has one colour.
 pub(crate) fn even_out(values: &mut [f64], bodies: &[Vec<u32>]) {
     for rows in bodies {
         let mean = rows.iter().map(|&row| values[row as usize]).sum::<f64>() / rows.len() as f64;
@@ -38,12 +38,12 @@ pub struct GrainCount {
 }
 
 impl GrainCount {
-    /// The grains of a table.
+    /// Counts the grains of a table.
     pub fn of(table: &Table) -> GrainCount {
         GrainCount::with(table.rows(), &bodies(table))
     }
 
-    /// So many spheres, of which some are `bodies`.
+    /// Counts from the number of spheres and the spheres of each clump in `bodies`.
     pub(crate) fn with(spheres: usize, bodies: &[Vec<u32>]) -> GrainCount {
         let members = bodies.iter().map(Vec::len).sum();
         GrainCount { spheres: spheres - members, clumps: bodies.len(), members }
@@ -54,7 +54,7 @@ impl GrainCount {
         self.spheres + self.clumps
     }
 
-    /// Both together.
+    /// The sum of both counts.
     #[must_use]
     pub fn plus(self, other: GrainCount) -> GrainCount {
         GrainCount {

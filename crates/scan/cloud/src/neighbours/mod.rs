@@ -1,4 +1,4 @@
-//! What the points around a point say: distances, density, spacing, and which points are connected.
+//! Neighbourhoods of points: distances to neighbours, density, spacing, connected points.
 
 pub(crate) mod connected;
 pub(crate) mod density;

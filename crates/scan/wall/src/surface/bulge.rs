@@ -1,4 +1,4 @@
-//! Where spheres whose surfaces are on the points stick out of the surface elsewhere.
+//! Bulges: where wall spheres whose surfaces pass through the points stick out of the scanned surface beside them.
 //!
 //! A sphere lies behind its own point. Where the surface bends outwards more tightly than the sphere, at an edge or a rod, or where the structure is
 //! thinner than it, the sphere covers other points.
@@ -6,21 +6,21 @@
 use geom::{Grid, Vec3};
 use serde::Serialize;
 
-/// Points that are looked at, about.
+/// About so many points are checked.
 const LOOKED_AT: usize = 2000;
-/// Depth over the distance of neighbours that counts [–]: noise is less.
+/// A point that lies deeper than this in a sphere counts, over the distance of neighbours [–]: noise is less.
 const COUNTS: f64 = 0.25;
-/// Share of the points [–] from which on a warning is given: a corner is a few.
+/// A warning is given from this share of the points on [–]: a corner covers only a few.
 const TOLD: f64 = 0.02;
 
-/// Spheres that stick out.
+/// The spheres that stick out of the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bulges {
     /// Share of the points that spheres of other points cover [–].
     pub share: f64,
     /// The point that lies deepest [m].
     pub at: [f64; 3],
-    /// How deep [m].
+    /// How deep that point lies in the sphere [m].
     pub depth: f64,
     /// Radius of the sphere that covers it [m].
     pub radius: f64,

@@ -1,6 +1,7 @@
 //! Five scenes of many grains: a number of each by both engines, over seeds, with its scatter.
 
-use grainpipe_tests::engines::{both, column};
+use grainpipe_tests::engines::both;
+use grainpipe_tests::recorded::column;
 use grainpipe_tests::scenes::folder;
 use grainpipe_tests::tools::succeed;
 use std::fmt::Write;

@@ -2,7 +2,7 @@
 
 use crate::keys::Insert;
 
-/// What an insertion is to insert in all, and what it has inserted.
+/// The number and the mass that an insertion has to insert, and what it has inserted so far.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::plan) struct Total {
     count: Option<u64>,
@@ -12,33 +12,33 @@ pub(in crate::plan) struct Total {
 }
 
 impl Total {
-    /// That of an entry; without `count` and `mass` it has no end.
+    /// The total of a scene entry; without `count` and `mass` the insertion has no end.
     pub(in crate::plan) fn new(entry: &Insert) -> Total {
         Total { count: entry.count, mass: entry.mass, inserted: (0, 0.0) }
     }
 
-    /// Whether there is room for one more of the mass that `next` tells [kg]: as many as come nearest to the mass, as in `[[fill]]`.
+    /// Whether one more is inserted, whose mass `next` returns [kg]: the insertion ends as near to its mass as it can, as `[[fill]]` does.
     pub(in crate::plan) fn has_room(&self, next: impl FnOnce() -> f64) -> bool {
         let (count, mass) = self.inserted;
         self.count.is_none_or(|most| count < most) && self.mass.is_none_or(|most| mass + next() / 2.0 <= most)
     }
 
-    /// Whether it ends after a mass.
+    /// Whether the insertion ends after a mass, not after a number.
     pub(in crate::plan) fn is_mass(&self) -> bool {
         self.mass.is_some()
     }
 
-    /// Begins again.
+    /// Sets what has been inserted to zero, for the next period of an insertion that repeats.
     pub(in crate::plan) fn begin(&mut self) {
         self.inserted = (0, 0.0);
     }
 
-    /// One of a mass [kg] was inserted.
+    /// Counts one that was inserted, of `mass` [kg].
     pub(in crate::plan) fn add(&mut self, mass: f64) {
         self.inserted = (self.inserted.0 + 1, self.inserted.1 + mass);
     }
 
-    /// The number that is expected at most, of a mean mass [kg]; ∞ without an end.
+    /// The largest number to expect if each has the `mean` mass [kg]; ∞ without an end.
     pub(in crate::plan) fn expected(&self, mean: f64) -> f64 {
         let count = self.count.map_or(f64::INFINITY, |count| count as f64);
         count.min(self.mass.map_or(f64::INFINITY, |mass| mass / mean))

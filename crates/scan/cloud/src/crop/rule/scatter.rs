@@ -16,19 +16,19 @@ use serde::Serialize;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// Cells for a radius.
+/// Cells in a radius.
 const CELLS: f64 = 3.0;
 /// Smallest radius [m].
 const LEAST: f64 = 1e-6;
-/// Cells within reach that say something about a surface.
+/// With fewer cells in the radius, nothing is known of a surface.
 const ENOUGH: usize = 6;
 
-/// When points are too scattered for a surface.
+/// The rule: from which variation on points lie on no surface.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scattered {
-    /// Reach of the neighbours that are looked at [m].
+    /// Radius in which the neighbours of a point are taken [m].
     pub radius: f64,
-    /// Mean variation from which on a point is scattered [–].
+    /// A point with at least this mean variation is scattered [–].
     pub share: f64,
 }
 
@@ -114,7 +114,7 @@ pub fn compact(points: &[Vec3], rule: &Scattered) -> Result<Compact, TooWide> {
     Ok(Compact { rows: stay, sparse: 2 * few > judged.len() })
 }
 
-/// Of some of the points, about their mean; `p` is one of them, or near.
+/// Covariance of some of the points about their mean; `p` is one of them, or near them.
 fn covariance(points: &[Vec3], p: &Vec3, rows: &[u32]) -> Matrix3<f64> {
     let off = |i: &u32| points[*i as usize] - p;
     let count = rows.len() as f64;
@@ -122,7 +122,7 @@ fn covariance(points: &[Vec3], p: &Vec3, rows: &[u32]) -> Matrix3<f64> {
     rows.iter().map(off).map(|d| (d - mean) * (d - mean).transpose()).sum::<Matrix3<f64>>() / count
 }
 
-/// λ₀ over the sum of all, of a covariance.
+/// Surface variation of a covariance: λ₀ over the sum of its eigenvalues.
 fn variation(covariance: &Matrix3<f64>) -> f64 {
     let trace = covariance.trace();
     let least = least_axis(covariance).map_or(0.0, |axis| axis.dot(&(covariance * axis)));
