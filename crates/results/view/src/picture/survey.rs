@@ -1,11 +1,12 @@
 //! What all pictures of a film have in common: what the camera sees, and what the colours mean.
 
 use super::{
+    chains::{ChainKey, ChainSurvey},
     counts::Counts,
     drawn_table::DrawnTable,
     key::{BarKey, Key, scan_colours},
     options::PictureOptions,
-    shapes::{ArrowKey, ArrowSurvey},
+    shapes::{self, ArrowKey, ArrowSurvey},
     walls::WallKey,
 };
 use crate::appearance::{classes::Sizes, colour, field, scale::Range, wall_scale::WallSurvey};
@@ -23,11 +24,12 @@ pub struct Survey {
     pub(super) outline: Outline,
     colours: Option<Colours>,
     arrows: ArrowSurvey,
+    chains: ChainSurvey,
     moments: usize,
     /// Most grains, wall spheres and points of a moment.
     counts: Counts,
     walls: WallSurvey,
-    /// Whether any sphere or point was seen.
+    /// Whether any sphere, point or outline was seen.
     found: bool,
 }
 
@@ -57,8 +59,16 @@ impl Survey {
     ) -> Result<(), ViewError> {
         self.moments += 1;
         for part in parts.iter().filter(|p| !options.hidden.hides_layer(p.role, &p.name)) {
-            if let Role::Arrows(of) = part.role {
-                self.arrows.add(of, part.table);
+            match part.role {
+                Role::Arrows(of) => self.arrows.add(of, part.table),
+                Role::ForceChains => {
+                    self.chains.add(part.table);
+                    if options.hidden.hides_layer(Role::Grains, Role::Grains.word()) {
+                        self.see(part.table);
+                    }
+                }
+                Role::Outline(_) => self.see(part.table),
+                _ => {}
             }
         }
         let shown = |p: &&DrawnTable| !options.hidden.hides_layer(p.role, &p.name);
@@ -100,7 +110,13 @@ impl Survey {
         parts().filter(|p| p.role == role).try_for_each(|part| colours.add(part))
     }
 
-    /// Whether no sphere and no point was seen.
+    /// Takes in where rods are.
+    fn see(&mut self, rods: &Table) {
+        self.outline.add(&shapes::ends(rods));
+        self.found |= rods.rows() > 0;
+    }
+
+    /// Whether nothing was seen.
     pub(super) fn is_empty(&self) -> bool {
         !self.found
     }
@@ -120,6 +136,11 @@ impl Survey {
         self.counts.grains
     }
 
+    /// What thickness and colour of force chains mean.
+    pub(super) fn chains(&self, options: &PictureOptions) -> Option<ChainKey> {
+        self.chains.key(options)
+    }
+
     /// What the lengths of arrows mean.
     pub(super) fn arrows(&self) -> Option<ArrowKey> {
         self.arrows.key()
@@ -137,7 +158,9 @@ impl Survey {
 
     /// What the colours mean.
     pub(super) fn key(&self, options: &PictureOptions) -> Key {
-        let Some(Colours { field: Some(field), whole, kinds, values, all, sizes, .. }) = &self.colours else {
+        // Grains are faint behind force chains.
+        let colours = self.colours.as_ref().filter(|_| !self.chains.is_seen());
+        let Some(Colours { field: Some(field), whole, kinds, values, all, sizes, .. }) = colours else {
             return Key::None;
         };
         let name = field.clone();
