@@ -47,7 +47,7 @@ pub struct Args {
     /// them
     #[arg(long, value_name = "FIELD=LO,HI", value_parser = formats::only)]
     pub only: Vec<Only>,
-    /// Leave out what has this name: grains, walls, cloud, bonds, arrows, force-chains, or a wall (repeat). A page can show it again
+    /// Leave out what has this name: grains, walls, cloud, bonds, arrows, force-chains, outlines, or a wall (repeat). A page can show it again
     #[arg(long, value_name = "NAME")]
     pub hide: Vec<String>,
     /// Ends of the colour scale in SI units [default: the range of 98 % of the values]

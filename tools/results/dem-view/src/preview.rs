@@ -11,7 +11,7 @@ use drawing::Drawing;
 use scene::{Input, Plan, Scene};
 use serde_json::{Value, json};
 use std::path::Path;
-use view::{Arrows, LayerHead, Role, Show, SurfaceShape, WallSurface};
+use view::{Arrows, LayerHead, Role, Show, WallSurface};
 
 /// A scene that was read and planned.
 pub struct Planned {
@@ -126,13 +126,4 @@ impl Planned {
         }
         Ok(())
     }
-}
-
-/// The walls of a plan that are planes or meshes.
-pub(crate) fn surfaces(plan: &Plan) -> impl Iterator<Item = WallSurface> + '_ {
-    let of = |wall: &dem::setup::Wall| {
-        let shape: SurfaceShape = drawing::surface(wall)?;
-        Some(WallSurface { name: wall.name.clone(), shape, motion: wall.motion.clone() })
-    };
-    plan.setup.walls.iter().filter_map(of)
 }

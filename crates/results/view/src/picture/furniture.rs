@@ -31,10 +31,11 @@ pub fn add(canvas: Canvas, painted: &Painted, lens: &Lens, options: &PictureOpti
     match &painted.key {
         Key::Bar(key) => bar::add(&mut pen, [w, h], text, key, where_bar(painted, 0)),
         Key::Kinds { field, names } => {
-            let colours: Vec<colour::Rgb> = (0..names.len()).map(colour::kind).collect();
+            let colours: Vec<colour::Rgb> = names.iter().map(|(number, _)| colour::kind(*number)).collect();
             let by_number =
                 if names.is_empty() { format!("{field} (colours repeat)") } else { field.clone() };
-            kinds(&mut pen, [w, h], (text, top), &by_number, names, &colours);
+            let names: Vec<String> = names.iter().map(|(_, name)| name.clone()).collect();
+            kinds(&mut pen, [w, h], (text, top), &by_number, &names, &colours);
         }
         Key::Classes { classes, map } => {
             let of = |k| map.at(classes.share(k)).map(|c| (c * 255.0).round() as u8);

@@ -66,7 +66,8 @@ pub fn render<E>(
     options: &PictureOptions,
     mut each: impl FnMut(usize, Vec<u8>) -> Result<(), E>,
 ) -> Result<(), E> {
-    let walls_only = painted.rods.is_empty() && painted.layers.iter().all(|l| l.role == Role::Walls);
+    let no_rods = painted.rods.is_empty() && painted.lines.is_empty();
+    let walls_only = no_rods && painted.layers.iter().all(|l| l.role == Role::Walls);
     let faint = painted.chains.is_some();
     let opacity = |l: &PaintedLayer| match l.role {
         Role::Walls if walls_only => 1.0,
@@ -81,8 +82,8 @@ pub fn render<E>(
     let keep = options.cut.then_some(|place: Vec3| lens.seen(place)[2] >= lens.distance);
     let extent = painted.ball();
     let of_walls = glass.iter().find(|l| l.role == Role::Walls).map_or(1.0, |layer| opacity(layer));
-    let mut solid = Shaded::new(&solid, &painted.rods, lens, extent, keep);
-    let mut glass = Shaded::new(&glass, &[], lens, extent, keep);
+    let mut solid = Shaded::new(&solid, [&painted.rods, &painted.lines], lens, extent, keep);
+    let mut glass = Shaded::new(&glass, [&[], &[]], lens, extent, keep);
     let mut walls = ThinWalls::new(&painted.panes, lens, options);
     let (opacity, theme) = (of_walls as f32, Theme::of(options.dark));
     let (width, height) = (options.width as usize, options.height as usize);
@@ -153,10 +154,10 @@ fn through(
 }
 
 impl<'a> Shaded<'a> {
-    /// The surfaces of all `layers` together; walls only where `keep` holds for their place.
+    /// The surfaces of all `layers` together; walls only where `keep` holds for their place. Thin `lines` cast no shadow.
     fn new(
         layers: &[&'a PaintedLayer<'a>],
-        rods: &[Rod],
+        [rods, lines]: [&[Rod]; 2],
         lens: &Lens,
         extent: (Vec3, f64),
         keep: Option<impl Fn(Vec3) -> bool + Copy>,
@@ -178,6 +179,7 @@ impl<'a> Shaded<'a> {
         let usual = spheres.usual_radius();
         // First: it lets go of its tiles, of which those of the picture stay.
         let shadow = Shadow::of(&spheres, &rods, &joined, usual, lens, extent);
+        rods.extend(lines);
         let depths = splat(&spheres, &rods, lens);
         Shaded { depths, shadow, spheres, rods, joined, reach: 4.0 * usual }
     }

@@ -66,8 +66,10 @@ pub(crate) struct Pane {
 /// Everything in the picture.
 pub(crate) struct Painted<'a> {
     pub layers: Vec<PaintedLayer<'a>>,
-    /// Bonds, cracks and arrows.
+    /// Bonds, cracks, contacts and arrows.
     pub rods: Vec<Rod>,
+    /// Lines of outlines.
+    pub lines: Vec<Rod>,
     /// Whole and broken bonds; none where they are not shown.
     pub bonds: Option<[usize; 2]>,
     /// Size of the grains as drawn [–].
@@ -125,6 +127,7 @@ impl Painted<'_> {
         let mut painted = Painted {
             layers,
             rods: Vec::new(),
+            lines: Vec::new(),
             bonds: None,
             shrunk,
             arrows: survey.arrows(),
@@ -151,7 +154,7 @@ impl Painted<'_> {
                 self.rods.extend(rods);
             }
             (Role::Outline(kind), _) => {
-                self.rods.extend(shapes::outlines(part.table, kind.colour()));
+                self.lines.extend(shapes::outlines(part.table, kind.colour()));
                 self.outlines.push((kind, part.name.clone()));
             }
             (Role::Bonds, _) => {
@@ -190,7 +193,8 @@ impl Painted<'_> {
             if sheet.whole && side.is_some() && self.outline.is_empty() {
                 outline.add(&vertices);
             }
-            let opaque = sheet.closed && self.layers.is_empty() && self.rods.is_empty();
+            let opaque =
+                sheet.closed && self.layers.is_empty() && self.rods.is_empty() && self.lines.is_empty();
             let values = options.surface_values.get(number).and_then(Option::as_ref);
             let colour = self.wall_key.as_ref().zip(values).map(|(key, values)| {
                 let value = |part: &u32| f64::from(values.get(*part as usize).copied().unwrap_or(0.0));

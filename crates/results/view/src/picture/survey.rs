@@ -13,10 +13,14 @@ use crate::appearance::{classes::Sizes, colour, field, scale::Range, wall_scale:
 use crate::things::{outline::Outline, sheet::box_of, spheres::Spheres, wear_state::WORN};
 use crate::{GrainCount, Role, SurfaceShape, ViewError, WallSurface};
 use geom::Vec3;
+use std::collections::BTreeSet;
 use stream::{Table, Values};
 
 /// Values of a moment that are kept to find the range of the colours, at most, when there are many moments.
 const SAMPLE: usize = 20_000;
+
+/// Numbers that may have names.
+const CODES: usize = 64;
 
 /// What was seen of the moments that are to be drawn.
 #[derive(Clone, Default)]
@@ -44,6 +48,8 @@ struct Colours {
     values: Vec<f64>,
     all: Range,
     sizes: Sizes,
+    /// Whole numbers that there are, up to [`CODES`].
+    present: BTreeSet<usize>,
 }
 
 impl Survey {
@@ -160,7 +166,8 @@ impl Survey {
     pub(super) fn key(&self, options: &PictureOptions) -> Key {
         // Grains are faint behind force chains.
         let colours = self.colours.as_ref().filter(|_| !self.chains.is_seen());
-        let Some(Colours { field: Some(field), whole, kinds, values, all, sizes, .. }) = colours else {
+        let Some(Colours { field: Some(field), whole, kinds, values, all, sizes, present, .. }) = colours
+        else {
             return Key::None;
         };
         let name = field.clone();
@@ -171,7 +178,8 @@ impl Survey {
         if *whole && all.lo >= 0.0 && (few || field::names_things(&name)) {
             let codes = field::codes(&name, kinds);
             let count = if few || all.hi < codes.len() as f64 { all.hi as usize + 1 } else { 0 };
-            let names = (0..count).map(|k| codes.get(k).cloned().unwrap_or_else(|| k.to_string()));
+            let shown = (0..count).filter(|k| present.contains(k));
+            let names = shown.map(|k| (k, codes.get(k).cloned().unwrap_or_else(|| k.to_string())));
             return Key::Kinds { field: name, names: names.collect() };
         }
         let range = match options.range {
@@ -199,7 +207,8 @@ impl Colours {
         let field = (!own).then(name);
         let whole = field.as_deref().is_some_and(|f| field::is_whole(part.table, f));
         let (kinds, values) = (part.kinds.clone(), Vec::new());
-        Colours { role: part.role, field, whole, kinds, values, all: Range::EMPTY, sizes: Sizes::default() }
+        let (all, sizes, present) = (Range::EMPTY, Sizes::default(), BTreeSet::new());
+        Colours { role: part.role, field, whole, kinds, values, all, sizes, present }
     }
 
     fn add(&mut self, part: &DrawnTable) -> Result<(), ViewError> {
@@ -213,6 +222,9 @@ impl Colours {
             return Ok(());
         }
         self.all = self.all.with(Range::of(&values));
+        if self.whole {
+            self.present.extend(values.iter().map(|v| *v as usize).filter(|v| *v < CODES));
+        }
         let step = values.len().div_ceil(SAMPLE).max(1);
         self.values.extend(values.into_iter().step_by(step));
         Ok(())

@@ -38,7 +38,7 @@ impl OutlineKind {
         (OutlineKind::Inlet, "inlet", [0x8f, 0x5c, 0xc8]),
         (OutlineKind::Outlet, "outlet", [0xd5, 0x3e, 0x2a]),
         (OutlineKind::Periodic, "periodic box", [0x80, 0x84, 0x8c]),
-        (OutlineKind::Later, "later positions", [0xe6, 0xa8, 0x3c]),
+        (OutlineKind::Later, "later positions", [0xc8, 0x4f, 0xa8]),
     ];
 
     /// Its name.

@@ -1,9 +1,8 @@
 //! The outlines and arrows of a scene.
 
-use super::surfaces;
 use dem::setup::{Wall, WallShape, Zone};
 use geom::shape::Shape;
-use geom::{Motion, Plane, Vec3};
+use geom::{Plane, Vec3};
 use scene::{Plan, Scene};
 use view::{Line, OutlineKind, SurfaceShape, WallSurface};
 
@@ -15,8 +14,12 @@ const ARROW: f64 = 0.02;
 const SQUARE: f64 = 0.15;
 /// Later positions of walls that move: these shares of the time until the end.
 const LATER: [f64; 3] = [1.0 / 3.0, 2.0 / 3.0, 1.0];
-/// Arrows on a belt, at most.
-const ON_A_BELT: usize = 9;
+/// They are drawn where the wall is farther from its first position than this share of the size of the scene [–].
+const NEAR: f64 = 0.02;
+/// Arrows on a wall that moves, at most.
+const ON_A_WALL: usize = 12;
+/// Velocities of walls are means over this time from the start [s].
+const SOON: f64 = 1e-6;
 
 /// What a scene will do, and the box around it.
 pub struct Drawing<'a> {
@@ -134,25 +137,40 @@ impl<'a> Drawing<'a> {
     }
 
     fn words_of_later(&self) -> String {
-        let times: Vec<String> = self.times().iter().map(|time| format!("{}", geom::Shown(*time))).collect();
+        let times: Vec<String> = self.times().iter().map(|time| three_digits(*time)).collect();
         format!("walls at t = {} s", times.join(", "))
     }
 
+    /// Walls that are farther away from where they start than a share of the scene: a screen that vibrates would cover itself.
     fn later(&self) -> Vec<Line> {
-        let moving: Vec<WallSurface> = surfaces(self.plan).filter(|s| s.motion.moves()).collect();
         let mut lines = Vec::new();
-        for time in self.times() {
-            lines.extend(moving.iter().flat_map(|wall| view::wall_lines(wall, self.corners, time)));
-            let spheres = self.plan.setup.walls.iter().filter(|wall| wall.motion.moves());
-            lines.extend(spheres.flat_map(|wall| box_of_spheres(wall, &wall.motion, time)));
+        for wall in self.plan.setup.walls.iter().filter(|wall| wall.motion.moves()) {
+            let now = self.wall_at(wall, 0.0);
+            for time in self.times() {
+                let then = self.wall_at(wall, time);
+                let way = now.iter().flatten().zip(then.iter().flatten()).map(|(a, b)| (b - a).norm());
+                if way.fold(0.0, f64::max) > NEAR * self.size() {
+                    lines.extend(then);
+                }
+            }
         }
         lines
     }
 
-    /// Velocities [m/s] of belts, and of what comes in, each at a point [m].
+    fn wall_at(&self, wall: &Wall, time: f64) -> Vec<Line> {
+        match surface(wall) {
+            Some(shape) => {
+                let surface = WallSurface { name: wall.name.clone(), shape, motion: wall.motion.clone() };
+                view::wall_lines(&surface, self.corners, time)
+            }
+            None => box_of_spheres(wall, time),
+        }
+    }
+
+    /// Velocities [m/s] at the start of walls and belts, and of what comes in, each at a point [m].
     pub fn arrows(&self) -> Vec<(Vec3, Vec3)> {
-        let belts = self.plan.setup.walls.iter().filter(|wall| wall.surface.moves());
-        let on_belts = belts.flat_map(|wall| self.on_belt(wall));
+        let walls = self.plan.setup.walls.iter();
+        let on_walls = walls.filter(|w| w.surface.moves() || w.motion.moves()).flat_map(|w| self.on_wall(w));
         let inserts = self.inserts.iter().zip(&self.scene.keys.insert);
         let of_inserts = inserts.filter_map(|(shape, insert)| {
             let ends: Vec<Vec3> = view::shape_lines(shape).into_iter().flatten().collect();
@@ -160,10 +178,10 @@ impl<'a> Drawing<'a> {
             let (low, high) = ends.iter().fold((first, first), |(a, b), p| (a.inf(p), b.sup(p)));
             Some((0.5 * (low + high), Vec3::from(insert.velocity)))
         });
-        on_belts.chain(of_inserts).collect()
+        on_walls.chain(of_inserts).collect()
     }
 
-    fn on_belt(&self, wall: &Wall) -> Vec<(Vec3, Vec3)> {
+    fn on_wall(&self, wall: &Wall) -> Vec<(Vec3, Vec3)> {
         let places: Vec<Vec3> = match &wall.shape {
             WallShape::Spheres(all) => all.iter().map(|(place, _)| *place).collect(),
             WallShape::Mesh(mesh) => mesh.triangles().map(|[a, b, c]| (a + b + c) / 3.0).collect(),
@@ -175,23 +193,34 @@ impl<'a> Drawing<'a> {
                 (0..9).map(|n| plane.project(&at(n))).collect()
             }
         };
-        let step = places.len().div_ceil(ON_A_BELT).max(1);
+        let step = places.len().div_ceil(ON_A_WALL).max(1);
         let surface = &wall.surface;
-        let velocity = |p: &Vec3| surface.velocity + surface.turn.cross(&(p - surface.through));
-        places.iter().step_by(step).map(|p| (*p, velocity(p))).collect()
+        let after = wall.motion.pose(SOON);
+        let velocity = |p: &Vec3| {
+            let own = surface.velocity + surface.turn.cross(&(p - surface.through));
+            own + (after.position(p) - p) / SOON
+        };
+        let arrows = places.iter().step_by(step).map(|p| (*p, velocity(p)));
+        arrows.filter(|(_, velocity)| *velocity != Vec3::zeros()).collect()
     }
+}
+
+/// A time to read.
+fn three_digits(time: f64) -> String {
+    let rounded: f64 = format!("{time:.2e}").parse().unwrap_or(time);
+    geom::Shown(rounded).to_string()
 }
 
 /// Places between two ends [–].
 const THIRDS: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
 
 /// The box around the spheres of a wall, moved with it.
-fn box_of_spheres(wall: &Wall, motion: &Motion, time: f64) -> Vec<Line> {
+fn box_of_spheres(wall: &Wall, time: f64) -> Vec<Line> {
     let WallShape::Spheres(all) = &wall.shape else { return Vec::new() };
     let Some((first, _)) = all.first() else { return Vec::new() };
     let (low, high) = all
         .iter()
         .fold((*first, *first), |(a, b), (p, r)| (a.inf(&p.add_scalar(-*r)), b.sup(&p.add_scalar(*r))));
-    let pose = motion.pose(time);
+    let pose = wall.motion.pose(time);
     view::box_lines(low, high).into_iter().map(|line| line.map(|p| pose.position(&p))).collect()
 }
