@@ -9,6 +9,10 @@ use crate::{Map, Role, picture};
 use serde_json::{Value, json};
 
 impl Page {
+    pub(super) fn has_rods(&self) -> bool {
+        self.layers.iter().any(|l| l.role.is_rods())
+    }
+
     pub(super) fn has_chains(&self) -> bool {
         self.layers.iter().any(|l| l.role == Role::ForceChains)
     }

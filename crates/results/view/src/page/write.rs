@@ -18,14 +18,13 @@ use std::io::{self, Write};
 const TEMPLATE: &str = include_str!("page.html");
 const REGION: &str = include_str!("region.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: [&str; 17] = [
+const SCRIPT: [&str; 16] = [
     include_str!("data.js"),
     include_str!("camera.js"),
     include_str!("card.js"),
     include_str!("gpu.js"),
     include_str!("draw.js"),
     include_str!("sheet.js"),
-    include_str!("rods.js"),
     include_str!("solids.js"),
     include_str!("cut.js"),
     include_str!("find.js"),
@@ -37,6 +36,8 @@ const SCRIPT: [&str; 17] = [
     include_str!("touch.js"),
     include_str!("main.js"),
 ];
+/// What a page has of rods, and without any.
+const RODS: [&str; 2] = [include_str!("rods.js"), include_str!("rods_off.js")];
 /// What a page has of walls that are coloured, and what of others.
 const WORN: [&str; 3] = [include_str!("worn.js"), include_str!("worn.vert"), include_str!("worn.html")];
 const WORN_OFF: [&str; 3] = [include_str!("worn_off.js"), include_str!("worn_off.vert"), ""];
@@ -156,7 +157,8 @@ impl Page {
         let regions: &[&str] = if self.options.pick.is_some() { &REGIONS } else { &[] };
         // The last part starts what the others define.
         let (last, parts) = SCRIPT.split_last().unwrap_or((&"", &[]));
-        slim(&[parts, &[self.worn_parts()[0]], regions, &[*last]].concat().concat())
+        let rods = RODS[usize::from(!self.has_rods())];
+        slim(&[parts, &[rods, self.worn_parts()[0]], regions, &[*last]].concat().concat())
     }
 
     /// Script, part of a program for the graphics card, and settings of walls.
@@ -165,7 +167,7 @@ impl Page {
     }
 
     fn shaders(&self) -> String {
-        let rods = self.layers.iter().any(|l| l.role.is_rods());
+        let rods = self.has_rods();
         let solids = self.layers.iter().any(|l| !l.solids.is_empty());
         let more = [(rods, &ROD_SHADERS), (solids, &SOLID_SHADERS)];
         let all = SHADERS.iter().chain(more.iter().filter(|m| m.0).flat_map(|m| m.1));
