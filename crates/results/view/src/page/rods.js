@@ -96,7 +96,8 @@ function showRodLegend(legend) {
   }
   if (!chains) return;
   legend.append(element("h2", `normal force [${chains.unit}]`));
-  showBar(legend, chains);
+  // Contacts that pull are not below the scale: they have a colour of their own.
+  showBar(legend, { ...chains, all: chains.all.map((v) => Math.max(0, v)) });
   if (chains.all[0] < 0) legend.append(swatches([[chains.pull, "contacts that pull"]]));
   legend.hidden = false;
 }
