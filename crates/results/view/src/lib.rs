@@ -32,6 +32,9 @@ pub use reading::show::{LayerHead, Show};
 pub use record::SurfaceShape;
 pub use things::bodies::GrainCount;
 pub use things::extras::{Arrows, Extras};
+pub use things::outlines::{
+    Line, OutlineKind, arrow_table, box_lines, outline_table, plane_lines, shape_lines, wall_lines,
+};
 pub use things::surface::WallSurface;
 pub use things::wear_state::{PartValues, WearState};
 pub use wear::WearField;
@@ -49,12 +52,21 @@ pub enum Role {
     Bonds,
     /// Arrows, see [`Extras`].
     Arrows(Arrows),
+    /// Contacts that carry a force, see [`Extras`].
+    ForceChains,
+    /// What a scene will do, see [`outline_table`].
+    Outline(OutlineKind),
 }
 
 impl Role {
     /// Whether it is rods, not spheres or points.
     pub fn is_rods(self) -> bool {
-        matches!(self, Role::Bonds | Role::Arrows(_))
+        matches!(self, Role::Bonds | Role::Arrows(_) | Role::ForceChains | Role::Outline(_))
+    }
+
+    /// Whether grains are drawn smaller, which would hide it.
+    pub(crate) fn lies_in_grains(self) -> bool {
+        matches!(self, Role::Bonds | Role::Arrows(Arrows::Velocity | Arrows::Force))
     }
 
     /// The number for it in files for ParaView.
@@ -65,6 +77,8 @@ impl Role {
             Role::Walls => 2,
             Role::Bonds => 4,
             Role::Arrows(_) => 5,
+            Role::ForceChains => 6,
+            Role::Outline(_) => 7,
         }
     }
 
@@ -81,6 +95,8 @@ impl Role {
             Role::Cloud => "cloud",
             Role::Bonds => "bonds",
             Role::Arrows(_) => "arrows",
+            Role::ForceChains => "force-chains",
+            Role::Outline(_) => "outlines",
         }
     }
 }

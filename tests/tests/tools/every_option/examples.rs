@@ -109,6 +109,8 @@ pub const EXAMPLES: &[&str] = &[
     "dem-view run.mcap --colour speed --max-mb 20 --components --title run --time 0.02 -o v.html --report r.json --threads 2 -q",
     "dem-view bonded.mcap --bonds --colour broken --size 240x180 -o v6.png",
     "dem-view run.mcap --vectors velocity --colour size --size 240x180 -o v7.png",
+    "dem-view run.mcap --force-chains --size 240x180 -o v12.png",
+    "dem-view s.toml --size 240x180 -o v13.png",
     "dem-view run.mcap --only id=0,1 --colour id --size 240x180 -o v9.png",
     "dem-view run.mcap --vectors force --colour material --dark --size 240x180 -o v8.png",
     "dem-view flat.xyz --pick --output pick.html --quiet",

@@ -1,6 +1,7 @@
 //! The command line.
 
 use crate::formats::{self, Format};
+use crate::preview::Planned;
 use clap::Parser;
 use cli::{OutPath, Source};
 use view::{Arrows, Camera, Extras, Hidden, Map, Only, PictureOptions, Span, WallScale, WearField};
@@ -14,14 +15,17 @@ const EXAMPLES: &str = "Examples:\n\
     \x20 dem-view bonded.mcap --bonds --colour broken --range 0,1 -o bonds.png\n\
     \x20 dem-view bonded.mcap --only id=0,9 --colour broken -o some.png\n\
     \x20 dem-view run.mcap --vectors velocity -o arrows.png\n\
+    \x20 dem-view run.mcap --force-chains --camera front -o chains.png\n\
     \x20 dem-view run.mcap --every 0.01 --size 320x180 -o run.gif\n\
+    \x20 dem-view scene.toml -o preview.html\n\
     \x20 dem-view sampled.ply --pick -o pick.html";
 
 /// Show runs, walls and clouds together: an HTML page (no network needed), a picture, a film, files for ParaView
 #[derive(Parser)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), meshes (PLY, STL, OBJ), shown together; - or none: stdin
+    /// Runs and walls (MCAP), clouds (PLY, LAS, E57, PCD, XYZ), meshes (PLY, STL, OBJ), shown together; - or none: stdin. Or a scene (TOML),
+    /// with its walls and inlets: how it starts, and outlines of what it will do
     #[arg(value_name = "INPUT")]
     pub inputs: Vec<Source>,
     #[command(flatten)]
@@ -43,7 +47,7 @@ pub struct Args {
     /// them
     #[arg(long, value_name = "FIELD=LO,HI", value_parser = formats::only)]
     pub only: Vec<Only>,
-    /// Leave out what has this name: grains, walls, cloud, bonds, arrows, or a wall (repeat). A page can show it again
+    /// Leave out what has this name: grains, walls, cloud, bonds, arrows, force-chains, outlines, or a wall (repeat). A page can show it again
     #[arg(long, value_name = "NAME")]
     pub hide: Vec<String>,
     /// Ends of the colour scale in SI units [default: the range of 98 % of the values]
@@ -59,7 +63,7 @@ pub struct Args {
     /// Colour walls along the logarithm [default range: up to four decades]
     #[arg(long, requires = "walls_colour")]
     pub walls_log: bool,
-    /// Colour map: viridis, turbo or heat [default: viridis]
+    /// Colour map: viridis, turbo or heat [default: viridis; heat of --force-chains on light paper]
     #[arg(long, value_name = "NAME", value_parser = formats::map)]
     pub map: Option<Map>,
     /// Time to show [s]. HTML: shown first, paused; PNG, VTP: the nearest frame [default: the last frame with grains]
@@ -94,6 +98,10 @@ pub struct Args {
     /// Draw arrows: velocity of each grain, or force of each recorded contact on its first grain; grains at half their size
     #[arg(long, value_name = "FIELD", value_parser = formats::arrows)]
     pub vectors: Option<Arrows>,
+    /// Draw a rod for each recorded contact (needs [output] contacts = true), from centre to centre of grains or to a wall: thickness and
+    /// colour by normal force, --range and --map are theirs, and grains are faint. The 10 000 strongest contacts are drawn
+    #[arg(long)]
+    pub force_chains: bool,
     /// Leave out the nearer half of the walls in the picture
     #[arg(long)]
     pub cut: bool,
@@ -112,13 +120,16 @@ pub struct Args {
     /// Write a page in which you draw regions over one cloud; it gives the --keep and --remove options for cloud-crop
     #[arg(long)]
     pub pick: bool,
+    /// The scene among the inputs.
+    #[arg(skip)]
+    pub planned: Option<Planned>,
 }
 
 impl Args {
     /// Refuses options that change nothing in this kind of output.
     pub fn check(&self, format: Format) -> anyhow::Result<()> {
         use Format::{Gif, Html, Mp4, Png, Pvd, Vtp};
-        let options: [(&str, bool, &[Format]); 21] = [
+        let options: [(&str, bool, &[Format]); 22] = [
             ("--pick", self.pick, &[Html]),
             ("--title", self.title.is_some(), &[Html]),
             ("--max-mb", self.max_mb.is_some(), &[Html]),
@@ -139,6 +150,7 @@ impl Args {
             ("--cut", self.cut, &[Png, Gif, Mp4]),
             ("--bonds", self.bonds, &[Html, Png, Gif, Mp4]),
             ("--vectors", self.vectors.is_some(), &[Html, Png, Gif, Mp4]),
+            ("--force-chains", self.force_chains, &[Html, Png, Gif, Mp4]),
             ("--dark", self.dark, &[Html, Png, Gif, Mp4]),
         ];
         let foreign = options.iter().find(|(_, given, formats)| *given && !formats.contains(&format));
@@ -153,6 +165,7 @@ impl Args {
         let of_runs = [
             ("--bonds", self.bonds),
             ("--vectors", self.vectors.is_some()),
+            ("--force-chains", self.force_chains),
             ("--walls-colour", self.walls_colour.is_some()),
         ];
         if self.walls_log
@@ -165,7 +178,22 @@ impl Args {
         if let Some((name, _)) = of_runs.iter().find(|(_, given)| *given && self.pick) {
             return Err(cli::usage(format!("{name}: a cloud has none: leave it out")));
         }
-        let others = [("--bonds", self.bonds), ("--vectors", self.vectors.is_some()), ("--pick", self.pick)];
+        let beside = [
+            ("--bonds", self.bonds),
+            ("--vectors", self.vectors.is_some()),
+            ("--colour", self.colour.is_some()),
+        ];
+        if let Some((name, _)) = beside.iter().find(|(_, given)| *given && self.force_chains) {
+            return Err(cli::usage(format!(
+                "{name}: --force-chains draws grains faint, and contacts alone: leave one of them out"
+            )));
+        }
+        let others = [
+            ("--bonds", self.bonds),
+            ("--vectors", self.vectors.is_some()),
+            ("--force-chains", self.force_chains),
+            ("--pick", self.pick),
+        ];
         if let Some((name, _)) = others.iter().find(|(_, given)| *given && !self.only.is_empty()) {
             return Err(cli::usage(format!(
                 "--only: chooses grains, and not what {name} shows: leave one of them out"
@@ -209,8 +237,8 @@ impl Args {
             ),
             (
                 "--map",
-                self.map.is_some_and(|given| given != plain.map),
-                PictureOptions { map: plain.map, ..options.clone() },
+                self.map.is_some_and(|given| given != self.plain_map()),
+                PictureOptions { map: self.plain_map(), ..options.clone() },
             ),
             ("--range", self.range.is_some(), PictureOptions { range: None, ..options.clone() }),
         ];
@@ -231,7 +259,12 @@ impl Args {
 
     /// The colour map.
     pub fn map(&self) -> Map {
-        self.map.unwrap_or(Map::Viridis)
+        self.map.unwrap_or(self.plain_map())
+    }
+
+    /// The colour map where none is given: on light paper, weak forces are pale.
+    fn plain_map(&self) -> Map {
+        if self.force_chains && !self.dark { Map::Heat } else { Map::Viridis }
     }
 
     /// Where the camera is.
@@ -256,7 +289,14 @@ impl Args {
         };
         let history = asked("residence") || asked("origin");
         let broken = self.bonds || self.colour.as_deref() == Some("broken");
-        Extras { bonds: self.bonds, broken, arrows: self.vectors, history, wear: self.walls_colour }
+        Extras {
+            bonds: self.bonds,
+            broken,
+            arrows: self.vectors,
+            chains: self.force_chains,
+            history,
+            wear: self.walls_colour,
+        }
     }
 
     /// What is not drawn.

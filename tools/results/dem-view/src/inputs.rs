@@ -39,7 +39,10 @@ pub fn read_watched(
     let mut found = Vec::new();
     let mut chosen = Chosen::new(args.only.clone(), show);
     let (mut scaled, mut runs) = (false, false);
-    for source in &args.inputs {
+    if let Some(planned) = &args.planned {
+        found.extend(planned.show(&mut chosen)?);
+    }
+    for source in args.inputs.iter().filter(|_| args.planned.is_none()) {
         let mut from = source.open()?;
         let mut head = Vec::new();
         from.by_ref()
@@ -71,9 +74,9 @@ pub fn read_watched(
         };
         found.extend(layers.with_context(|| source.to_string())?);
     }
-    if let Some(option) = ["--bonds", "--vectors", "--walls-colour"]
+    if let Some(option) = ["--bonds", "--vectors", "--force-chains", "--walls-colour"]
         .into_iter()
-        .zip([args.bonds, args.vectors.is_some(), args.walls_colour.is_some()])
+        .zip([args.bonds, args.vectors.is_some(), args.force_chains, args.walls_colour.is_some()])
         .find(|(_, on)| *on && !runs)
     {
         return Err(cli::usage(format!("{}: no input is a run (MCAP): leave it out", option.0)));
@@ -85,7 +88,8 @@ pub fn read_watched(
         args.columns.none("no input is a cloud of text")?;
         args.placing.none("runs and walls (MCAP) are not moved, clouds and meshes are")?;
     }
-    if found.iter().all(|input| input.get("triangles").is_some())
+    if args.planned.is_none()
+        && found.iter().all(|input| input.get("triangles").is_some())
         && let Some(option) = args.of_colour()
     {
         return Err(cli::usage(format!("{option}: meshes have no field to colour by: leave it out")));

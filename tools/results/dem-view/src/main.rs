@@ -9,6 +9,7 @@ mod formats;
 mod inputs;
 mod page;
 mod paraview;
+mod preview;
 
 use anyhow::Context;
 use args::Args;
@@ -29,6 +30,8 @@ fn show(mut args: Args) -> anyhow::Result<Report> {
     Source::one_stdin(&args.inputs)?;
     let format = Format::of(&output)?;
     args.check(format)?;
+    args.planned = preview::plan(&args, format)?;
+    args.colour = args.colour.or(args.planned.as_ref().and_then(preview::Planned::colour));
     let report = match format {
         Format::Html => page::html(&args, &output),
         Format::Png => png(&args, &output),

@@ -215,7 +215,9 @@ fn bonded(bonds: bool, contacts: bool) -> Vec<u8> {
         }
         if contacts {
             let force = [("fx", 1.0), ("fy", 0.0), ("fz", 2.0)];
-            writer.points("/contacts", time, "world", one(&[&place[..], &force].concat())).expect("written");
+            let normal = [("nx", 1.0), ("ny", 0.0), ("nz", 0.0), ("overlap", 0.0), ("kind", 0.0)];
+            let all = one(&[&place[..], &force, &normal].concat());
+            writer.points("/contacts", time, "world", all).expect("written");
         }
     }
     writer.finish().expect("finished")
@@ -247,6 +249,29 @@ fn bonds_cracks_and_arrows_are_in_pages_pictures_and_films() {
     .success();
 }
 
+/// Force chains are in pictures, films and pages; their scale is that of `--range`.
+#[test]
+fn force_chains_are_in_pages_pictures_and_films() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("b.mcap"), bonded(false, true)).expect("written");
+    let picture = |args: &[&str]| {
+        let all = [&["b.mcap", "-o", "b.png", "--size", "320x200"], args].concat();
+        dem_view(folder.path(), &all).success();
+        fs::read(folder.path().join("b.png")).expect("there")
+    };
+    let [plain, chains, wide] =
+        [&[][..], &["--force-chains"], &["--force-chains", "--range", "0,3"]].map(picture);
+    assert!(plain != chains && chains != wide);
+    assert!(picture(&["--force-chains", "--hide", "force-chains"]) != chains);
+    let film = &["b.mcap", "--force-chains", "--size", "160x90", "-o", "b.gif"];
+    dem_view(folder.path(), film).success();
+    dem_view(folder.path(), &["b.mcap", "--force-chains", "--range", "0,3", "-o", "b.html"]).success();
+    let page = fs::read_to_string(folder.path().join("b.html")).expect("there");
+    for part in ["\"role\":\"force-chains\"", "\"name\":\"normal force\"", "\"shown\":[0.0,3.0]"] {
+        assert!(page.contains(part), "{part}");
+    }
+}
+
 #[test]
 fn what_a_run_does_not_hold_cannot_be_drawn() {
     let folder = folder();
@@ -259,6 +284,13 @@ fn what_a_run_does_not_hold_cannot_be_drawn() {
             &["b.mcap", "--vectors", "force", "-o", "x.png"],
             &["--vectors force: run holds no contacts", "[output] contacts"],
         ),
+        (
+            &["b.mcap", "--force-chains", "-o", "x.png"],
+            &["--force-chains: run holds no contacts", "--set output.contacts=true"],
+        ),
+        (&["b.mcap", "--force-chains", "--bonds", "-o", "x.png"], &["--bonds: --force-chains draws"]),
+        (&["b.mcap", "--force-chains", "--colour", "z", "-o", "x.png"], &["--colour: --force-chains draws"]),
+        (&["c.xyz", "--force-chains", "-o", "x.png"], &["--force-chains: no input is a run"]),
         (&["b.mcap", "--vectors", "spin", "-o", "x.png"], &["give velocity or force"]),
         (&["b.mcap", "--bonds", "-o", "x.vtp"], &["--bonds changes nothing in .vtp", "leave it out"]),
         (&["b.mcap", "--colour", "size", "--range", "0,1", "-o", "x.png"], &["--range: size has classes"]),

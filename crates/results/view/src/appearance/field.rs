@@ -78,7 +78,8 @@ pub fn is_whole(table: &Table, name: &str) -> bool {
 
 /// Whether the whole numbers of a field are names: neighbouring ones have nothing in common, so each has a separate colour.
 pub fn names_things(name: &str) -> bool {
-    ["id", "body", "cluster", "class", "material", "wall", "region", "removed", "origin"].contains(&name)
+    ["id", "body", "cluster", "class", "material", "wall", "region", "removed", "origin", "classification"]
+        .contains(&name)
 }
 
 /// What the numbers of `removed` mean, as `cloud-crop --mark` writes them.
@@ -95,11 +96,35 @@ const REMOVED: [&str; 10] = [
     "9 by its properties",
 ];
 
+/// What the numbers of `classification` mean: ASPRS (2019), LAS Specification 1.4 R15, table 17.
+const CLASSIFICATION: [&str; 19] = [
+    "0 never classified",
+    "1 unclassified",
+    "2 ground",
+    "3 low vegetation",
+    "4 medium vegetation",
+    "5 high vegetation",
+    "6 building",
+    "7 low noise",
+    "8 reserved",
+    "9 water",
+    "10 rail",
+    "11 road surface",
+    "12 reserved",
+    "13 wire guard",
+    "14 wire conductor",
+    "15 tower",
+    "16 wire connector",
+    "17 bridge deck",
+    "18 high noise",
+];
+
 /// What the numbers of a field mean; `materials` are those of `material`.
 pub fn codes(name: &str, materials: &[String]) -> Vec<String> {
     match name {
         "material" => materials.to_vec(),
         "origin" => ["there at the start", "came in later"].map(str::to_owned).to_vec(),
+        "classification" => CLASSIFICATION.map(str::to_owned).to_vec(),
         "removed" => REMOVED.map(str::to_owned).to_vec(),
         _ => Vec::new(),
     }

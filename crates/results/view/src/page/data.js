@@ -41,7 +41,7 @@ function placeAt(frame, row) {
 const order = ["grains", "cloud", "walls"];
 const mainRole = order.find((role) => run.layers.some((l) => l.role === role)) || "walls";
 const mainLayers = run.layers.filter((l) => l.role === mainRole);
-const isRods = (l) => l.role === "bonds" || l.role === "arrows";
+const isRods = (l) => ["bonds", "arrows", "force-chains", "outlines"].includes(l.role);
 const hasColours = (l) => ["red", "green", "blue"].every((c) => l.fields.some((f) => f.name === c));
 
 // Times at which anything changes, in order.

@@ -49,7 +49,9 @@ function showLegend() {
   } else if (about) {
     showBar(legend, { ...about, shown: state.shown, map: state.map });
   }
-  showWornLegend(legend, about);
+  showWornLegend(legend);
+  showRodLegend(legend);
+  legend.classList.toggle("two", legend.querySelectorAll("h2").length > 1);
   if (bonds) legend.append(swatches([[WHOLE, "bond"], [BREAK, "crack"]]));
 }
 
@@ -142,7 +144,7 @@ function showCounts() {
   const bonds = bondCounts();
   const bonded = bonds ? [`${grouped(bonds.whole)} bonds, ${grouped(bonds.broken)} broken`] : [];
   const share = state.grains < 1 && count("grains") ? [`grains drawn at ${Math.round(100 * state.grains)} % of their size`] : [];
-  byId("count").textContent = [...(grains ? [grains] : []), ...words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${count(role) === 1 ? word.slice(0, -1) : word}`), ...meshes, ...bonded, ...share].join(" · ");
+  byId("count").textContent = [...(grains ? [grains] : []), ...words.filter(([role]) => count(role)).map(([role, word]) => `${grouped(count(role))} ${count(role) === 1 ? word.slice(0, -1) : word}`), ...meshes, ...bonded, ...chainWords(), ...share].join(" · ");
   const far = camera.fitted && !camera.wide && camera.leaves() ? ["some grains are far from all others: F shows them"] : [];
   byId("drawn").textContent = [...(painter.dots ? ["drawn as points"] : []), ...far].join(" · ");
   byId("clock").textContent = clock.length > 1 || clock[0] > 0 ? `t = ${clock[state.frame].toFixed(timeDecimals)} s` : "";

@@ -9,6 +9,7 @@ mod exact;
 mod fit;
 mod pack;
 mod page_field;
+mod page_rods;
 mod panes;
 mod solids;
 mod timeline;

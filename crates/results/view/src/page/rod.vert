@@ -1,5 +1,5 @@
 #version 300 es
-// A rod (a bond, a crack, the shaft or the head of an arrow) is drawn on two triangles that cover the ball around it.
+// A rod (a bond, a crack, a contact, the shaft or the head of an arrow) is drawn on two triangles that cover the ball around it.
 // Seen coordinates: x right, y up, z forward, the eye at 0.
 precision highp float;
 layout(location = 0) in vec3 position;  // share of the frame's box
@@ -7,18 +7,21 @@ layout(location = 1) in float radius;   // share of the frame's range
 layout(location = 2) in float dx;
 layout(location = 3) in float dy;
 layout(location = 4) in float dz;
-layout(location = 5) in float broken;
+layout(location = 5) in float broken;   // or normal force
 uniform vec3 boxLo, boxSize;
 uniform vec2 radiusOf, valueOf[4];      // lowest and range
 uniform mat3 turn;
-uniform vec3 eye, shape;                // of bonds: radius of a bond and of a crack; of arrows: radius and length of a head, scale
+uniform vec3 eye, shape;                // of bonds: radius of a bond and of a crack; of arrows: radius and length of a head, scale;
+                                        // of contacts: radius of a force at the end of the scale, its ends
 uniform float usual;                    // radius of the grains
 uniform vec2 focal;
 uniform float flatView;
 uniform vec4 cut;
 uniform float cutLeast;
-uniform int part;                       // 0 bond or crack, 1 shaft, 2 head
+uniform int part;                       // 0 bond or crack, 1 shaft, 2 head, 3 contact
 uniform vec3 wholeColour, breakColour, arrowColour;
+uniform vec3 stops[15];
+uniform int stopCount;
 flat out vec3 endA, endB, colour;
 flat out vec2 radii;
 flat out float disc;
@@ -39,6 +42,13 @@ void main() {
     colour = state > 0.5 ? breakColour : wholeColour;
     radii = vec2(own * (state > 0.5 ? shape.y : shape.x));
     from = state > 0.5 ? place : place - along;
+    to = place + along;
+  } else if (part == 3) {
+    float at = clamp((state - shape.y) / (shape.z - shape.y), 0.0, 1.0) * float(stopCount - 1);
+    int below = min(int(at), stopCount - 2);
+    colour = state < 0.0 ? breakColour : mix(stops[below], stops[below + 1], at - float(below));
+    radii = vec2(shape.x * min(abs(state) / shape.z, 1.0));
+    from = place - along;
     to = place + along;
   } else {
     vec3 vector = along * shape.z;

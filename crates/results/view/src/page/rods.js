@@ -22,7 +22,6 @@ const rods = {
     gl.uniform2fv(at("picture"), size);
     setCut(this.program, state.cutGrains ? cutOf() : null);
     const dark = paper()[0] < 0.5;
-    gl.uniform3fv(at("wholeColour"), WHOLE.map((c) => c / 255));
     gl.uniform3fv(at("breakColour"), BREAK.map((c) => c / 255));
     gl.uniform3fv(at("arrowColour"), dark ? [0.92, 0.93, 0.95] : [0.13, 0.15, 0.17]);
     for (const buffers of shown) this.drawLayer(buffers);
@@ -39,15 +38,22 @@ const rods = {
     gl.uniform2f(at("radiusOf"), frame.radius[1], frame.radius[2] - frame.radius[1]);
     buffers.column(0, frame.position, 3, 2, 1);
     buffers.column(1, frame.radius[0], 1, 2, 1);
-    ["dx", "dy", "dz", "broken"].forEach((name, n) => {
+    ["dx", "dy", "dz", layer.chains ? "normal_force" : "broken"].forEach((name, n) => {
       const column = frame.fields[fieldOf(layer, name)];
       buffers.column(2 + n, column ? column[0] : null, 1, column ? column[3] : 1, 1);
       gl.uniform2f(at(`valueOf[${n}]`), column ? column[1] : 0, column ? column[2] - column[1] : 0);
     });
-    const { arrows } = layer;
+    const { arrows, chains } = layer;
     gl.uniform1f(at("usual"), arrows ? arrows.radius : 0);
-    gl.uniform3f(at("shape"), ...(arrows ? [...run.rods.head, arrows.scale] : [run.rods.bond, run.rods.crack, 0]));
-    for (const part of arrows ? [1, 2] : [0]) {
+    gl.uniform3f(at("shape"), ...(arrows ? [...run.rods.head, arrows.scale] : chains ? [chains.radius, ...chains.shown] : layer.colour ? [1, 1, 0] : [run.rods.bond, run.rods.crack, 0]));
+    gl.uniform3fv(at("wholeColour"), (layer.colour ?? WHOLE).map((c) => c / 255));
+    if (chains) {
+      const stops = run.maps[chains.map];
+      gl.uniform1i(at("stopCount"), stops.length);
+      gl.uniform3fv(at("stops"), stops.flat().map((c) => c / 255));
+      gl.uniform3fv(at("breakColour"), chains.pull.map((c) => c / 255));
+    }
+    for (const part of arrows ? [1, 2] : [chains ? 3 : 0]) {
       gl.uniform1i(at("part"), part);
       gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, frame.count);
     }
@@ -59,7 +65,7 @@ const BREAK = [219, 41, 31];
 
 // Bonds of the frame shown: whole, broken; null where none are shown.
 function bondCounts() {
-  const shown = rods.shown().filter((b) => !b.layer.arrows);
+  const shown = rods.shown().filter((b) => b.layer.role === "bonds");
   if (!shown.length) return null;
   let [whole, broken] = [0, 0];
   for (const { layer } of shown) {
@@ -68,6 +74,32 @@ function bondCounts() {
     for (let row = 0; row < frame.count; row++) if (valueAt(column, row) > 0.5) broken++; else whole++;
   }
   return { whole, broken };
+}
+
+// What of the contacts is drawn.
+function chainWords() {
+  const layer = rods.shown().find((b) => b.layer.chains)?.layer;
+  if (!layer) return [];
+  const frame = frameAt(layer, clock[state.frame]);
+  const of = (name) => (frame.count ? valueAt(frame.fields[fieldOf(layer, name)], 0) : 0);
+  const [drawn, all] = [of("drawn"), of("contacts")].map(Math.round);
+  if (drawn === all) return [`${grouped(all)} contacts`];
+  return [`the ${grouped(drawn)} strongest of ${grouped(all)} contacts: ${Math.floor(100 * of("force_drawn") / of("force_of_all"))} % of the force`];
+}
+
+function showRodLegend(legend) {
+  const chains = rods.shown().find((b) => b.layer.chains)?.layer.chains;
+  const outlines = rods.shown().map((b) => b.layer).filter((l) => l.colour);
+  if (outlines.length) {
+    legend.append(swatches(outlines.map((l) => [l.colour, l.name])));
+    legend.hidden = false;
+  }
+  if (!chains) return;
+  legend.append(element("h2", `normal force [${chains.unit}]`));
+  // Contacts that pull are not below the scale: they have a colour of their own.
+  showBar(legend, { ...chains, all: chains.all.map((v) => Math.max(0, v)) });
+  if (chains.all[0] < 0) legend.append(swatches([[chains.pull, "contacts that pull"]]));
+  legend.hidden = false;
 }
 
 // An arrow of a round value, as long as one at the distance of the point looked at.

@@ -116,8 +116,7 @@ function decades([lo, hi]) {
 }
 
 // The part of the legend that is about walls.
-function showWornLegend(legend, about) {
-  legend.classList.toggle("two", Boolean(about) && worn.on);
+function showWornLegend(legend) {
   if (!worn.on) return;
   const { name, unit, factor, map, all } = run.walls;
   legend.append(element("h2", `walls: ${name} [${unit}]`));

@@ -1,14 +1,15 @@
 //! The page as text: a header in JSON, and each column of bytes once, in base64.
 
 use super::{
-    Page, PageLayer,
+    Page, PageLayer, PageOptions,
     blobs::Blobs,
+    page_rods,
     panes::{self, Framed, Pane},
     worn::WearTrack,
 };
 use crate::appearance::{colour, field, scale};
 use crate::things::{extras, sheet};
-use crate::{Diagram, Map, Role, ViewError, picture::ArrowKey};
+use crate::{Diagram, Map, Role, ViewError};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use geom::Vec3;
 use serde_json::{Value, json};
@@ -17,14 +18,13 @@ use std::io::{self, Write};
 const TEMPLATE: &str = include_str!("page.html");
 const REGION: &str = include_str!("region.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: [&str; 17] = [
+const SCRIPT: [&str; 16] = [
     include_str!("data.js"),
     include_str!("camera.js"),
     include_str!("card.js"),
     include_str!("gpu.js"),
     include_str!("draw.js"),
     include_str!("sheet.js"),
-    include_str!("rods.js"),
     include_str!("solids.js"),
     include_str!("cut.js"),
     include_str!("find.js"),
@@ -36,6 +36,8 @@ const SCRIPT: [&str; 17] = [
     include_str!("touch.js"),
     include_str!("main.js"),
 ];
+/// What a page has of rods, and without any.
+const RODS: [&str; 2] = [include_str!("rods.js"), include_str!("rods_off.js")];
 /// What a page has of walls that are coloured, and what of others.
 const WORN: [&str; 3] = [include_str!("worn.js"), include_str!("worn.vert"), include_str!("worn.html")];
 const WORN_OFF: [&str; 3] = [include_str!("worn_off.js"), include_str!("worn_off.vert"), ""];
@@ -155,7 +157,8 @@ impl Page {
         let regions: &[&str] = if self.options.pick.is_some() { &REGIONS } else { &[] };
         // The last part starts what the others define.
         let (last, parts) = SCRIPT.split_last().unwrap_or((&"", &[]));
-        slim(&[parts, &[self.worn_parts()[0]], regions, &[*last]].concat().concat())
+        let rods = RODS[usize::from(!self.has_rods())];
+        slim(&[parts, &[rods, self.worn_parts()[0]], regions, &[*last]].concat().concat())
     }
 
     /// Script, part of a program for the graphics card, and settings of walls.
@@ -164,7 +167,7 @@ impl Page {
     }
 
     fn shaders(&self) -> String {
-        let rods = self.layers.iter().any(|l| l.role.is_rods());
+        let rods = self.has_rods();
         let solids = self.layers.iter().any(|l| !l.solids.is_empty());
         let more = [(rods, &ROD_SHADERS), (solids, &SOLID_SHADERS)];
         let all = SHADERS.iter().chain(more.iter().filter(|m| m.0).flat_map(|m| m.1));
@@ -182,9 +185,11 @@ impl Page {
         let with_outline = self.layers.iter().zip(outlines).filter(|(l, _)| is_shown(l));
         json!({
             "title": self.options.title,
-            "maps": self.maps_json(), "kinds": kinds, "wall": colour::WALL, "map": map,
+            "maps": self.maps_json(), "kinds": kinds, "wall": colour::WALL,
+            // Beside force chains, whose they are, grains have others.
+            "map": if self.has_chains() { Some("viridis") } else { map },
             "colour": self.options.colour.as_deref().map(field::canonical),
-            "range": self.options.range,
+            "range": self.options.range.filter(|_| !self.has_chains()),
             "time": self.options.time,
             "camera": {
                 "towards": camera.towards_eye.as_slice(),
@@ -194,7 +199,7 @@ impl Page {
             "sizes": self.sizes.classes().map(|c| json!({
                 "names": c.names, "edges": c.edges, "lo": c.range.lo, "hi": c.range.hi,
             })),
-            "rods": { "bond": extras::BOND, "crack": extras::CRACK, "head": extras::HEAD, "grains": extras::GRAINS },
+            "rods": { "bond": extras::BOND, "crack": extras::CRACK, "head": extras::HEAD, "grains": self.size_of_grains() },
             "plots": self.diagrams.iter().map(Diagram::to_json).collect::<Vec<_>>(),
             "given": kept.given, "stride": kept.stride,
             "lengthsOnly": kept.lengths_only, "mostBytes": self.options.most_bytes,
@@ -202,7 +207,7 @@ impl Page {
             "positionError": kept.position_error, "radiusError": kept.radius_error,
             "clock": self.times(),
             "lo": framed.extent.map(|r| r.lo), "hi": framed.extent.map(|r| r.hi),
-            "layers": with_outline.map(|(l, o)| self.hidden(l.role, &l.name, layer(l, o, blobs))).collect::<Vec<_>>(),
+            "layers": with_outline.map(|(l, o)| self.hidden(l.role, &l.name, layer(l, o, blobs, &self.options))).collect::<Vec<_>>(),
             "walls": self.walls_json(),
             "surfaces": framed.panes.iter().zip(0..).map(|(p, n)| {
                 self.hidden(Role::Walls, &p.name, pane(p, self.worn.get(&n), blobs))
@@ -241,6 +246,7 @@ fn layer<'a>(
     layer: &'a PageLayer,
     (outline, strays): (&Vec<Vec3>, &Vec<Vec3>),
     blobs: &mut Blobs<'a>,
+    options: &PageOptions,
 ) -> Value {
     let places = |of: &[Vec3]| of.iter().map(panes::triple).collect::<Vec<_>>();
     let mut frames = Vec::new();
@@ -281,23 +287,15 @@ fn layer<'a>(
         "exact": layer.exact.as_ref().map(|e| json!([blobs.number(&e.bytes), e.width])),
         "marks": layer.exact.as_ref().and_then(|e| e.marks.as_ref()).map(|marks| blobs.number(marks)),
         "motion": panes::motion(&layer.motion),
-        "arrows": layer.arrow_key().map(|key| arrow_json(&key)),
         "fields": fields.chain(axes).collect::<Vec<_>>(),
         "outline": places(outline),
         "strays": places(strays),
         "solids": layer.solids.header(|bytes| blobs.number(bytes)),
         "frames": frames,
     });
+    page_rods::add_to(&mut packed, layer, options);
     layer.wear.add_to(&mut packed, blobs);
     packed
-}
-
-fn arrow_json(key: &ArrowKey) -> Value {
-    let (unit, factor) = scale::readable(key.of.unit(), key.example);
-    json!({
-        "word": key.of.word(), "unit": unit, "factor": factor,
-        "example": key.example, "scale": key.scale, "radius": key.radius,
-    })
 }
 
 fn named_field(name: &str, whole: bool, all: [f64; 2], shown: [f64; 2]) -> Value {

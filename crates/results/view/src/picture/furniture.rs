@@ -25,13 +25,17 @@ pub fn add(canvas: Canvas, painted: &Painted, lens: &Lens, options: &PictureOpti
     let mut pen = Pen { canvas, colour: theme.ink, paper: theme.paper_bytes() };
     // Kinds leave place below for the bar of walls.
     let top = if painted.wall_key.is_some() { 0.14 } else { 0.3 };
+    if let Some((key, _)) = &painted.chains {
+        bar::add(&mut pen, [w, h], text, &key.bar, where_bar(painted, 0));
+    }
     match &painted.key {
         Key::Bar(key) => bar::add(&mut pen, [w, h], text, key, where_bar(painted, 0)),
         Key::Kinds { field, names } => {
-            let colours: Vec<colour::Rgb> = (0..names.len()).map(colour::kind).collect();
+            let colours: Vec<colour::Rgb> = names.iter().map(|(number, _)| colour::kind(*number)).collect();
             let by_number =
                 if names.is_empty() { format!("{field} (colours repeat)") } else { field.clone() };
-            kinds(&mut pen, [w, h], (text, top), &by_number, names, &colours);
+            let names: Vec<String> = names.iter().map(|(_, name)| name.clone()).collect();
+            kinds(&mut pen, [w, h], (text, top), &by_number, &names, &colours);
         }
         Key::Classes { classes, map } => {
             let of = |k| map.at(classes.share(k)).map(|c| (c * 255.0).round() as u8);
@@ -64,8 +68,10 @@ pub fn add(canvas: Canvas, painted: &Painted, lens: &Lens, options: &PictureOpti
 
 /// Where a colour bar stands in the height of a picture [–]: that of grains above that of walls, where there are both.
 fn where_bar(painted: &Painted, number: usize) -> [f64; 2] {
-    match (&painted.key, &painted.wall_key) {
-        (Key::None, _) | (_, None) => [0.22, 0.74],
+    let alone = matches!(painted.key, Key::None) && painted.chains.is_none();
+    match &painted.wall_key {
+        Some(_) if alone => [0.22, 0.74],
+        None => [0.22, 0.74],
         _ => [[0.12, 0.38], [0.54, 0.79]][number],
     }
 }

@@ -1,6 +1,7 @@
 //! The spheres of several layers, numbered through, and read where they are: millions of points are held once.
 
 use super::paint::PaintedLayer;
+use crate::Role;
 use geom::Vec3;
 
 /// Spheres of several layers.
@@ -68,6 +69,11 @@ impl<'a> Joined<'a> {
         let mut radii: Vec<f64> = (0..self.count).map(|i| self.radius(i)).collect();
         let middle = radii.len() / 2;
         if radii.is_empty() { 0.0 } else { *radii.select_nth_unstable_by(middle, f64::total_cmp).1 }
+    }
+
+    /// What one is.
+    pub fn role(&self, i: usize) -> Role {
+        self.row(i).0.role
     }
 
     /// The layer and the row of one.

@@ -10,8 +10,8 @@ use stream::{Table, Values};
 pub(crate) enum Key {
     /// A range of a field.
     Bar(BarKey),
-    /// Kinds by number, with their names; without any where there are more kinds than colours, which repeat then.
-    Kinds { field: String, names: Vec<String> },
+    /// Kinds that are there, by number, with their names; without any where there are more kinds than colours, which repeat then.
+    Kinds { field: String, names: Vec<(usize, String)> },
     /// Classes of size.
     Classes { classes: Classes, map: Map },
     /// The colours of the scan itself.

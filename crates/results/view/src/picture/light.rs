@@ -55,6 +55,9 @@ const ROWS: usize = 64;
 /// How far around a sample shade is looked for at most, as a share of the height of the picture [–].
 const FARTHEST: f64 = 0.06;
 
+/// How much of what is behind it a grain beside force chains hides [–].
+const FAINT: f64 = 0.22;
+
 /// Draws everything on white, from the top down; `each` takes some rows, the first of which has the number given, with
 /// four bytes a pixel.
 pub fn render<E>(
@@ -63,18 +66,26 @@ pub fn render<E>(
     options: &PictureOptions,
     mut each: impl FnMut(usize, Vec<u8>) -> Result<(), E>,
 ) -> Result<(), E> {
-    let walls_only = painted.layers.iter().all(|l| l.role == Role::Walls);
-    let opacity = |l: &PaintedLayer| if l.worn { options.coloured_opacity } else { options.wall_opacity };
-    let see_through = |l: &&PaintedLayer| l.role == Role::Walls && !walls_only && opacity(l) < 1.0;
+    let no_rods = painted.rods.is_empty() && painted.lines.is_empty();
+    let walls_only = no_rods && painted.layers.iter().all(|l| l.role == Role::Walls);
+    let faint = painted.chains.is_some();
+    let opacity = |l: &PaintedLayer| match l.role {
+        Role::Walls if walls_only => 1.0,
+        Role::Walls if l.worn => options.coloured_opacity,
+        Role::Walls => options.wall_opacity,
+        Role::Grains if faint => FAINT,
+        _ => 1.0,
+    };
+    let see_through = |l: &&PaintedLayer| opacity(l) < 1.0;
     let (glass, solid): (Vec<&PaintedLayer>, Vec<&PaintedLayer>) =
         painted.layers.iter().partition(see_through);
     let keep = options.cut.then_some(|place: Vec3| lens.seen(place)[2] >= lens.distance);
     let extent = painted.ball();
-    let opacity = glass.first().map_or(1.0, |layer| opacity(layer));
-    let mut solid = Shaded::new(&solid, &painted.rods, lens, extent, keep);
-    let mut glass = Shaded::new(&glass, &[], lens, extent, keep);
+    let of_walls = glass.iter().find(|l| l.role == Role::Walls).map_or(1.0, |layer| opacity(layer));
+    let mut solid = Shaded::new(&solid, [&painted.rods, &painted.lines], lens, extent, keep);
+    let mut glass = Shaded::new(&glass, [&[], &[]], lens, extent, keep);
     let mut walls = ThinWalls::new(&painted.panes, lens, options);
-    let (opacity, theme) = (opacity as f32, Theme::of(options.dark));
+    let (opacity, theme) = (of_walls as f32, Theme::of(options.dark));
     let (width, height) = (options.width as usize, options.height as usize);
     for top in (0..height).step_by(ROWS) {
         let rows = [top, (top + ROWS).min(height)].map(|row| row * SAMPLES);
@@ -132,17 +143,21 @@ fn through(
     if glass.depths.depth(place) < solid.depths.depth(place)
         && let Some((wall, _)) = glass.colour(lens, at, Some(&solid.shadow))
     {
-        let share = if grain.is_some() { opacity } else { theme.wall + (1.0 - theme.wall) * opacity };
+        let share = match grain {
+            _ if glass.is_grain(place) => FAINT as f32,
+            Some(_) => opacity,
+            None => theme.wall + (1.0 - theme.wall) * opacity,
+        };
         seen = std::array::from_fn(|k| seen[k] + share * (wall[k] - seen[k]));
     }
     walls.before(place, seen)
 }
 
 impl<'a> Shaded<'a> {
-    /// The surfaces of all `layers` together; walls only where `keep` holds for their place.
+    /// The surfaces of all `layers` together; walls only where `keep` holds for their place. Thin `lines` cast no shadow.
     fn new(
         layers: &[&'a PaintedLayer<'a>],
-        rods: &[Rod],
+        [rods, lines]: [&[Rod]; 2],
         lens: &Lens,
         extent: (Vec3, f64),
         keep: Option<impl Fn(Vec3) -> bool + Copy>,
@@ -164,6 +179,7 @@ impl<'a> Shaded<'a> {
         let usual = spheres.usual_radius();
         // First: it lets go of its tiles, of which those of the picture stay.
         let shadow = Shadow::of(&spheres, &rods, &joined, usual, lens, extent);
+        rods.extend(lines);
         let depths = splat(&spheres, &rods, lens);
         Shaded { depths, shadow, spheres, rods, joined, reach: 4.0 * usual }
     }
@@ -236,6 +252,13 @@ impl<'a> Shaded<'a> {
             covered += (above - 0.08).max(0.0) * fade;
         }
         (1.0 - 2.4 * covered / SPIRAL.len() as f32).clamp(0.15, 1.0)
+    }
+
+    /// Whether a sample sees a grain.
+    fn is_grain(&self, sample: usize) -> bool {
+        // Beside the spheres, there are only the faces of clumps.
+        let is_grain = |n: usize| n >= self.spheres.len() || self.spheres.role(n) == Role::Grains;
+        self.depths.number(sample).is_some_and(is_grain)
     }
 
     /// The body that a sample sees.

@@ -1,6 +1,7 @@
 //! Pictures: spheres with their true outlines, drawn by a z-buffer of our own, the same bits every time.
 
 mod caption;
+mod chains;
 mod counts;
 mod drawn_table;
 mod font;
@@ -27,6 +28,7 @@ mod thin_walls;
 mod veil;
 mod walls;
 
+pub(crate) use chains::PULL;
 pub use drawn_table::DrawnTable;
 pub use options::PictureOptions;
 pub use png::Png;

@@ -1,6 +1,7 @@
 //! What is drawn: every sphere of every part, with its colour, and thin walls.
 
 use super::{
+    chains::{ChainCount, ChainKey},
     counts::Counts,
     drawn_table::DrawnTable,
     key::{Key, plain},
@@ -14,7 +15,7 @@ use super::{
 };
 use crate::appearance::scale::Range;
 use crate::things::{extras::GRAINS, sheet, solid::Solid, spheres::Spheres};
-use crate::{Role, SurfaceShape, ViewError, WallSurface};
+use crate::{OutlineKind, Role, SurfaceShape, ViewError, WallSurface};
 use geom::Vec3;
 
 /// Edges and faces of the clumps that are polyhedra, with the place of each in `bodies`.
@@ -65,13 +66,19 @@ pub(crate) struct Pane {
 /// Everything in the picture.
 pub(crate) struct Painted<'a> {
     pub layers: Vec<PaintedLayer<'a>>,
-    /// Bonds, cracks and arrows.
+    /// Bonds, cracks, contacts and arrows.
     pub rods: Vec<Rod>,
+    /// Lines of outlines.
+    pub lines: Vec<Rod>,
     /// Whole and broken bonds; none where they are not shown.
     pub bonds: Option<[usize; 2]>,
     /// Size of the grains as drawn [–].
     pub shrunk: f64,
     pub arrows: Option<ArrowKey>,
+    /// What force chains mean, and how many are drawn; grains are faint then.
+    pub chains: Option<(ChainKey, ChainCount)>,
+    /// Kinds and names of outlines.
+    pub outlines: Vec<(OutlineKind, String)>,
     /// Most grains, wall spheres and points of all moments.
     pub counts: Counts,
     pub panes: Vec<Pane>,
@@ -97,7 +104,7 @@ impl Painted<'_> {
         }
         let (key, wall_key) = (survey.key(options), survey.wall_key(options));
         let mut layers = Vec::new();
-        let shrunk = if parts.iter().any(|p| p.role.is_rods()) { GRAINS } else { 1.0 };
+        let shrunk = if parts.iter().any(|p| p.role.lies_in_grains()) { GRAINS } else { 1.0 };
         let shown = |p: &&DrawnTable| !options.hidden.hides_layer(p.role, &p.name);
         for part in parts.iter().filter(shown).filter(|p| p.table.rows() > 0 && !p.role.is_rods()) {
             let mut spheres = Spheres::of(part.table, &part.name)?;
@@ -120,9 +127,12 @@ impl Painted<'_> {
         let mut painted = Painted {
             layers,
             rods: Vec::new(),
+            lines: Vec::new(),
             bonds: None,
             shrunk,
             arrows: survey.arrows(),
+            chains: survey.chains(options).map(|key| (key, ChainCount::default())),
+            outlines: Vec::new(),
             counts: survey.counts(),
             panes: Vec::new(),
             outline: Vec::new(),
@@ -137,6 +147,16 @@ impl Painted<'_> {
 
     fn add_rods(&mut self, part: &DrawnTable, options: &PictureOptions) {
         match (part.role, &self.arrows) {
+            (Role::ForceChains, _) => {
+                let Some((key, count)) = &mut self.chains else { return };
+                let (rods, own) = key.rods(part.table);
+                *count = count.plus(own);
+                self.rods.extend(rods);
+            }
+            (Role::Outline(kind), _) => {
+                self.lines.extend(shapes::outlines(part.table, kind.colour()));
+                self.outlines.push((kind, part.name.clone()));
+            }
             (Role::Bonds, _) => {
                 let (rods, [whole, broken]) = shapes::bonds(part.table);
                 let before = self.bonds.unwrap_or_default();
@@ -173,7 +193,8 @@ impl Painted<'_> {
             if sheet.whole && side.is_some() && self.outline.is_empty() {
                 outline.add(&vertices);
             }
-            let opaque = sheet.closed && self.layers.is_empty();
+            let opaque =
+                sheet.closed && self.layers.is_empty() && self.rods.is_empty() && self.lines.is_empty();
             let values = options.surface_values.get(number).and_then(Option::as_ref);
             let colour = self.wall_key.as_ref().zip(values).map(|(key, values)| {
                 let value = |part: &u32| f64::from(values.get(*part as usize).copied().unwrap_or(0.0));

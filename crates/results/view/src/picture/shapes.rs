@@ -1,6 +1,7 @@
 //! The rods of bonds, cracks and arrows.
 
 use super::rod::{Rod, RodShape};
+use crate::appearance::colour::{Rgb, fraction};
 use crate::appearance::scale::{Range, round_below};
 use crate::things::extras::{ALONG, ARROW, Arrows, BOND, CRACK, HEAD};
 use geom::Vec3;
@@ -15,7 +16,7 @@ pub(super) const BREAK: [f32; 3] = [0.86, 0.16, 0.12];
 const SAMPLE: usize = 20_000;
 
 /// A start and a vector for each row, with a radius [m].
-fn rows(table: &Table) -> Vec<(Vec3, Vec3, f64)> {
+pub(super) fn rows(table: &Table) -> Vec<(Vec3, Vec3, f64)> {
     let column = |name| table.get(name).map(Values::to_f64).unwrap_or_default();
     let [x, y, z] = POSITION.map(column);
     let [dx, dy, dz] = ALONG.map(column);
@@ -40,6 +41,22 @@ pub(super) fn bonds(table: &Table) -> (Vec<Rod>, [usize; 2]) {
     let count = broken.iter().filter(|b| **b != 0.0).count();
     let rods = rows(table).into_iter().enumerate().filter_map(rod).collect();
     (rods, [broken.len() - count, count])
+}
+
+/// The ends of all rods [m].
+pub(super) fn ends(table: &Table) -> Vec<Vec3> {
+    rows(table).into_iter().flat_map(|(middle, half, _)| [middle - half, middle + half]).collect()
+}
+
+/// Thin lines of one colour.
+pub(super) fn outlines(table: &Table, colour: Rgb) -> Vec<Rod> {
+    let rod = |(middle, half, radius): (Vec3, Vec3, f64)| Rod {
+        ends: [middle - half, middle + half],
+        radii: [radius; 2],
+        shape: RodShape::Cone,
+        colour: fraction(colour),
+    };
+    rows(table).into_iter().map(rod).collect()
 }
 
 /// What was seen of all arrows that are to be drawn.

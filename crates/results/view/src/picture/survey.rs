@@ -1,21 +1,26 @@
 //! What all pictures of a film have in common: what the camera sees, and what the colours mean.
 
 use super::{
+    chains::{ChainKey, ChainSurvey},
     counts::Counts,
     drawn_table::DrawnTable,
     key::{BarKey, Key, scan_colours},
     options::PictureOptions,
-    shapes::{ArrowKey, ArrowSurvey},
+    shapes::{self, ArrowKey, ArrowSurvey},
     walls::WallKey,
 };
 use crate::appearance::{classes::Sizes, colour, field, scale::Range, wall_scale::WallSurvey};
 use crate::things::{outline::Outline, sheet::box_of, spheres::Spheres, wear_state::WORN};
 use crate::{GrainCount, Role, SurfaceShape, ViewError, WallSurface};
 use geom::Vec3;
+use std::collections::BTreeSet;
 use stream::{Table, Values};
 
 /// Values of a moment that are kept to find the range of the colours, at most, when there are many moments.
 const SAMPLE: usize = 20_000;
+
+/// Numbers that may have names.
+const CODES: usize = 64;
 
 /// What was seen of the moments that are to be drawn.
 #[derive(Clone, Default)]
@@ -23,11 +28,12 @@ pub struct Survey {
     pub(super) outline: Outline,
     colours: Option<Colours>,
     arrows: ArrowSurvey,
+    chains: ChainSurvey,
     moments: usize,
     /// Most grains, wall spheres and points of a moment.
     counts: Counts,
     walls: WallSurvey,
-    /// Whether any sphere or point was seen.
+    /// Whether any sphere, point or outline was seen.
     found: bool,
 }
 
@@ -42,6 +48,8 @@ struct Colours {
     values: Vec<f64>,
     all: Range,
     sizes: Sizes,
+    /// Whole numbers that there are, up to [`CODES`].
+    present: BTreeSet<usize>,
 }
 
 impl Survey {
@@ -57,8 +65,16 @@ impl Survey {
     ) -> Result<(), ViewError> {
         self.moments += 1;
         for part in parts.iter().filter(|p| !options.hidden.hides_layer(p.role, &p.name)) {
-            if let Role::Arrows(of) = part.role {
-                self.arrows.add(of, part.table);
+            match part.role {
+                Role::Arrows(of) => self.arrows.add(of, part.table),
+                Role::ForceChains => {
+                    self.chains.add(part.table);
+                    if options.hidden.hides_layer(Role::Grains, Role::Grains.word()) {
+                        self.see(part.table);
+                    }
+                }
+                Role::Outline(_) => self.see(part.table),
+                _ => {}
             }
         }
         let shown = |p: &&DrawnTable| !options.hidden.hides_layer(p.role, &p.name);
@@ -100,7 +116,13 @@ impl Survey {
         parts().filter(|p| p.role == role).try_for_each(|part| colours.add(part))
     }
 
-    /// Whether no sphere and no point was seen.
+    /// Takes in where rods are.
+    fn see(&mut self, rods: &Table) {
+        self.outline.add(&shapes::ends(rods));
+        self.found |= rods.rows() > 0;
+    }
+
+    /// Whether nothing was seen.
     pub(super) fn is_empty(&self) -> bool {
         !self.found
     }
@@ -120,6 +142,11 @@ impl Survey {
         self.counts.grains
     }
 
+    /// What thickness and colour of force chains mean.
+    pub(super) fn chains(&self, options: &PictureOptions) -> Option<ChainKey> {
+        self.chains.key(options)
+    }
+
     /// What the lengths of arrows mean.
     pub(super) fn arrows(&self) -> Option<ArrowKey> {
         self.arrows.key()
@@ -137,7 +164,10 @@ impl Survey {
 
     /// What the colours mean.
     pub(super) fn key(&self, options: &PictureOptions) -> Key {
-        let Some(Colours { field: Some(field), whole, kinds, values, all, sizes, .. }) = &self.colours else {
+        // Grains are faint behind force chains.
+        let colours = self.colours.as_ref().filter(|_| !self.chains.is_seen());
+        let Some(Colours { field: Some(field), whole, kinds, values, all, sizes, present, .. }) = colours
+        else {
             return Key::None;
         };
         let name = field.clone();
@@ -148,7 +178,8 @@ impl Survey {
         if *whole && all.lo >= 0.0 && (few || field::names_things(&name)) {
             let codes = field::codes(&name, kinds);
             let count = if few || all.hi < codes.len() as f64 { all.hi as usize + 1 } else { 0 };
-            let names = (0..count).map(|k| codes.get(k).cloned().unwrap_or_else(|| k.to_string()));
+            let shown = (0..count).filter(|k| present.contains(k));
+            let names = shown.map(|k| (k, codes.get(k).cloned().unwrap_or_else(|| k.to_string())));
             return Key::Kinds { field: name, names: names.collect() };
         }
         let range = match options.range {
@@ -176,7 +207,8 @@ impl Colours {
         let field = (!own).then(name);
         let whole = field.as_deref().is_some_and(|f| field::is_whole(part.table, f));
         let (kinds, values) = (part.kinds.clone(), Vec::new());
-        Colours { role: part.role, field, whole, kinds, values, all: Range::EMPTY, sizes: Sizes::default() }
+        let (all, sizes, present) = (Range::EMPTY, Sizes::default(), BTreeSet::new());
+        Colours { role: part.role, field, whole, kinds, values, all, sizes, present }
     }
 
     fn add(&mut self, part: &DrawnTable) -> Result<(), ViewError> {
@@ -190,6 +222,9 @@ impl Colours {
             return Ok(());
         }
         self.all = self.all.with(Range::of(&values));
+        if self.whole {
+            self.present.extend(values.iter().map(|v| *v as usize).filter(|v| *v < CODES));
+        }
         let step = values.len().div_ceil(SAMPLE).max(1);
         self.values.extend(values.into_iter().step_by(step));
         Ok(())

@@ -3,6 +3,7 @@
 use crate::reading::history::History;
 use crate::reading::show::{LayerHead, Show};
 use crate::reading::worn::{ShownPart, WornWalls};
+use crate::things::chains::{self, MOST};
 use crate::things::extras;
 use crate::{Arrows, Extras, Motion, Role, ViewError, WallSurface};
 use geom::Vec3;
@@ -25,7 +26,7 @@ struct ViewedRun<'a, S> {
     clumps: Vec<ClumpRecord>,
     /// The layer of a topic.
     layers: HashMap<&'static str, usize>,
-    /// Grains that wait for the bonds of their time.
+    /// Grains that wait for the bonds or contacts of their time.
     frame: Option<(f64, Table)>,
     /// Mean radius of the grains [m].
     usual: f64,
@@ -92,7 +93,7 @@ pub fn show_run(
                 PARTICLES => run.grains(time_ns as f64 / 1e9, table)?,
                 WALLS => run.wall_spheres(time_ns as f64 / 1e9, table)?,
                 BONDS if extras.needs_bonds() => run.bonds(time_ns as f64 / 1e9, &table)?,
-                CONTACTS if extras.arrows == Some(Arrows::Force) => {
+                CONTACTS if extras.needs_contacts() => {
                     run.contacts(time_ns as f64 / 1e9, &table)?;
                 }
                 WALL_WEAR if extras.wear.is_some() => run.wear(time_ns as f64 / 1e9, &table)?,
@@ -144,7 +145,7 @@ impl<S: Show> ViewedRun<'_, S> {
             self.usual = radius.iter().sum::<f64>() / radius.len() as f64;
         }
         self.frame = Some((time, table));
-        if self.extras.needs_bonds() { Ok(()) } else { self.release(None) }
+        if self.extras.waits() { Ok(()) } else { self.release(None) }
     }
 
     /// Shows the grains that wait, with the share of their bonds that are broken, and their arrows.
@@ -177,8 +178,17 @@ impl<S: Show> ViewedRun<'_, S> {
 
     fn contacts(&mut self, time: f64, table: &Table) -> Result<(), ViewError> {
         self.count(CONTACTS);
+        let of_frame = self.frame.as_ref().filter(|(of, _)| self.extras.chains && *of == time);
+        let chains = of_frame.map(|(_, grains)| chains::chains(table, grains, MOST)).transpose()?;
         self.release(None)?;
-        self.push(CONTACTS, Role::Arrows(Arrows::Force), time, extras::forces(table, self.usual)?)
+        match chains {
+            Some(rods) => self.push(CONTACTS, Role::ForceChains, time, rods),
+            None if self.extras.chains => Ok(()),
+            None => {
+                let arrows = extras::forces(table, self.usual)?;
+                self.push(CONTACTS, Role::Arrows(Arrows::Force), time, arrows)
+            }
+        }
     }
 
     /// An error if something is asked for that the run does not hold.
@@ -190,9 +200,18 @@ impl<S: Show> ViewedRun<'_, S> {
             let cure = "give a run whose scene has a [[bond]] that joins grains, or leave it out";
             return Err(ViewError::NoSuch { option, what: "bonds", cure });
         }
-        if self.extras.arrows == Some(Arrows::Force) && none(CONTACTS) {
-            let cure = "set [output] contacts = true and run again, or show --vectors velocity";
-            return Err(ViewError::NoSuch { option: "--vectors force".to_owned(), what: "contacts", cure });
+        if self.extras.needs_contacts() && none(CONTACTS) {
+            let (option, cure) = match self.extras.chains {
+                true => (
+                    "--force-chains",
+                    "set output.contacts = true and run again (dem-run SCENE --set output.contacts=true -o RUN)",
+                ),
+                false => (
+                    "--vectors force",
+                    "set [output] contacts = true and run again, or show --vectors velocity",
+                ),
+            };
+            return Err(ViewError::NoSuch { option: option.to_owned(), what: "contacts", cure });
         }
         if let Some(worn) = &self.worn {
             let option = "--walls-colour".to_owned();

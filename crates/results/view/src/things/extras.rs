@@ -37,6 +37,8 @@ pub struct Extras {
     /// Grains get the field `broken`: the share of their bonds that are broken.
     pub broken: bool,
     pub arrows: Option<Arrows>,
+    /// A rod for each contact that carries a force.
+    pub chains: bool,
     /// Grains get the fields `residence` and `origin`: how long they have been there, and whether from the start.
     pub history: bool,
     /// What the parts of walls are coloured by.
@@ -50,13 +52,15 @@ pub enum Arrows {
     Velocity,
     /// Force of each contact [N], at its point.
     Force,
+    /// Velocities that a scene gives [m/s]: of belts, and of grains that come in.
+    Planned,
 }
 
 impl Arrows {
     /// Its name.
     pub fn word(self) -> &'static str {
         match self {
-            Arrows::Velocity => "velocity",
+            Arrows::Velocity | Arrows::Planned => "velocity",
             Arrows::Force => "force",
         }
     }
@@ -64,30 +68,38 @@ impl Arrows {
     /// The unit of its vectors.
     pub fn unit(self) -> &'static str {
         match self {
-            Arrows::Velocity => "m/s",
+            Arrows::Velocity | Arrows::Planned => "m/s",
             Arrows::Force => "N",
         }
     }
 }
 
 impl Extras {
-    /// Whether a frame must wait for its bonds.
     pub(crate) fn needs_bonds(self) -> bool {
         self.bonds || self.broken
+    }
+
+    /// Whether a frame must wait for its bonds or contacts.
+    pub(crate) fn waits(self) -> bool {
+        self.needs_bonds() || self.chains
+    }
+
+    pub(crate) fn needs_contacts(self) -> bool {
+        self.chains || self.arrows == Some(Arrows::Force)
     }
 }
 
 /// Three columns of a table.
-fn vectors(table: &Table, columns: Columns) -> Option<Vec<[f64; 3]>> {
+pub(crate) fn vectors(table: &Table, columns: Columns) -> Option<Vec<[f64; 3]>> {
     let [x, y, z] = columns.map(|c| table.get(c).map(Values::to_f64));
     Some(x?.into_iter().zip(y?).zip(z?).map(|((x, y), z)| [x, y, z]).collect())
 }
 
-fn missing(topic: &'static str) -> ViewError {
+pub(crate) fn missing(topic: &'static str) -> ViewError {
     ViewError::Columns { topic }
 }
 
-fn rods(position: &[[f64; 3]], along: &[[f64; 3]], radius: Vec<f64>) -> Result<Table, ViewError> {
+pub(crate) fn rods(position: &[[f64; 3]], along: &[[f64; 3]], radius: Vec<f64>) -> Result<Table, ViewError> {
     let mut table = Table::with_rows(radius.len());
     for k in 0..3 {
         push(&mut table, POSITION[k], Values::F64(position.iter().map(|p| p[k]).collect()))?;
@@ -99,7 +111,7 @@ fn rods(position: &[[f64; 3]], along: &[[f64; 3]], radius: Vec<f64>) -> Result<T
     Ok(table)
 }
 
-fn push(table: &mut Table, name: &str, values: Values) -> Result<(), ViewError> {
+pub(crate) fn push(table: &mut Table, name: &str, values: Values) -> Result<(), ViewError> {
     table.push(name, values).map_err(|e| ViewError::Table { why: e.to_string() })
 }
 

@@ -1,6 +1,8 @@
 //! What bonds, cracks and arrows mean.
 
+use crate::appearance::colour::Rgb;
 use crate::picture::{
+    chains::PULL,
     ink::{Anchor, Pen},
     lens::Lens,
     paint::Painted,
@@ -10,20 +12,34 @@ use crate::things::bodies::grouped;
 
 /// Adds what there is: bonds from `top` down, the arrow at `bottom`.
 pub fn add(pen: &mut Pen, top: [f64; 2], bottom: [f64; 2], text: f64, painted: &Painted, lens: &Lens) {
+    if let Some((key, count)) = &painted.chains {
+        pen.text(top, text, Anchor::Left, &count.words());
+        if key.pulls {
+            row(pen, [top[0], top[1] + 2.0 * text], text, PULL, "contacts that pull");
+        }
+    }
+    for (k, (kind, name)) in painted.outlines.iter().enumerate() {
+        row(pen, [top[0], top[1] + 2.0 * text * k as f64], text, kind.colour(), name);
+    }
     if let Some([whole, broken]) = painted.bonds {
         let rows = [(shapes::WHOLE, whole, "bonds"), (shapes::BREAK, broken, "broken")];
         for (k, (colour, count, word)) in rows.into_iter().enumerate() {
-            let y = top[1] + 2.0 * text * k as f64;
-            let ink = pen.colour;
-            pen.colour = colour.map(|c| (255.0 * c).round() as u8);
-            pen.fill([top[0], y - 0.95 * text, top[0] + 1.1 * text, y + 0.05 * text]);
-            pen.colour = ink;
-            pen.text([top[0] + 1.8 * text, y], text, Anchor::Left, &format!("{} {word}", grouped(count)));
+            let colour = colour.map(|c| (255.0 * c).round() as u8);
+            let words = format!("{} {word}", grouped(count));
+            row(pen, [top[0], top[1] + 2.0 * text * k as f64], text, colour, &words);
         }
     }
     if let Some(key) = &painted.arrows {
         arrow(pen, bottom, text, key, lens);
     }
+}
+
+/// A patch of a colour, and what it means.
+fn row(pen: &mut Pen, [x, y]: [f64; 2], text: f64, colour: Rgb, words: &str) {
+    let ink = std::mem::replace(&mut pen.colour, colour);
+    pen.fill([x, y - 0.95 * text, x + 1.1 * text, y + 0.05 * text]);
+    pen.colour = ink;
+    pen.text([x + 1.8 * text, y], text, Anchor::Left, words);
 }
 
 /// An arrow of a round value, as long as one at the distance of the point looked at.
