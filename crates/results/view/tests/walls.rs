@@ -72,8 +72,14 @@ fn run(motion: &Motion, worn: bool) -> Vec<u8> {
     writer.finish().expect("finished")
 }
 
-const SLIDING: Extras =
-    Extras { bonds: false, broken: false, arrows: None, history: false, wear: Some(WearField::SlidingWork) };
+const SLIDING: Extras = Extras {
+    bonds: false,
+    broken: false,
+    arrows: None,
+    history: false,
+    chains: false,
+    wear: Some(WearField::SlidingWork),
+};
 
 /// The picture from above at a time, without the grain, whose scale ends at 20 J/m².
 fn seen(file: &[u8], time: f64) -> Image {
