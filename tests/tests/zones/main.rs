@@ -11,6 +11,7 @@ mod lowest;
 mod memory;
 mod path;
 mod room;
+mod shared_place;
 mod together;
 
 use dem::Simulation;

@@ -17,7 +17,7 @@ mod zones;
 
 pub use builder::PlannedInlet;
 pub use grains::packing::bounds;
-pub use insertions::insertion::Insertion;
+pub use insertions::insertion::{Insertion, Planned};
 pub use laws::accuracy::{ImpactError, impact_error, smallest_accuracies};
 pub use laws::contacts::{dropped, most_specific};
 pub use walls::below::Below;
