@@ -8,6 +8,7 @@ mod fallen;
 mod foretold;
 mod settled;
 mod stopped;
+mod together;
 mod whole;
 
 use grainpipe_tests::scenes::{Head, RUBS, folder};

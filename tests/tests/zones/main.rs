@@ -10,6 +10,7 @@ mod left;
 mod lowest;
 mod memory;
 mod path;
+mod removal;
 mod room;
 mod shared_place;
 mod together;
