@@ -6,6 +6,7 @@ mod continued;
 mod device;
 mod fallen;
 mod foretold;
+mod new;
 mod settled;
 mod stopped;
 mod together;
