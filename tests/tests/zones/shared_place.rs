@@ -16,7 +16,7 @@ fn scene(seed: u64, when: &str) -> String {
     let mut random = Pcg64Mcg::seed_from_u64(seed);
     let mut draw = |low: f64, high: f64| low + (high - low) * random.random::<f64>();
     let (size, speed) = (draw(0.008, 0.02), draw(0.3, 2.0));
-    let (width, boxes, in_turn) = (size * draw(1.2, 3.0), draw(0.0, 1.0) < 0.5, draw(0.0, 1.0) < 0.3);
+    let (width, boxes, in_turn) = (size * draw(1.2, 2.2), draw(0.0, 1.0) < 0.5, draw(0.0, 1.0) < 0.2);
     let count = if draw(0.0, 1.0) < 0.6 { 2 } else { 3 };
     let mut text = HEAD.to_owned();
     for k in 0..count {
@@ -29,9 +29,9 @@ fn scene(seed: u64, when: &str) -> String {
             true => format!("box:{},{},{above},{},{half},{top}", aside - half, -half, aside + half),
             false => format!("cylinder:{aside},0,{above},{aside},0,{top},{half}"),
         };
-        // Up to 28 % of what its centres can be in, each for itself.
+        // Up to 27 % of what its centres can be in, each for itself.
         let area = (width - high).powi(2) * if boxes { 1.0 } else { 0.785 };
-        let rate = draw(0.05, 0.28) * area * speed / geom::sphere::volume(0.25 * (low + high));
+        let rate = draw(0.15, 0.27) * area * speed / geom::sphere::volume(0.25 * (low + high));
         let of = f64::from(count);
         let (from, until) =
             if in_turn { (0.25 * f64::from(k) / of, 0.25 * f64::from(k + 1) / of) } else { (0.0, 0.25) };
@@ -95,6 +95,6 @@ fn insertions_that_share_a_narrow_place_wait_or_leave_out() {
         (late, left_out) = (late + waited, left_out + skipped);
         (stopped, blocked) = (stopped + u64::from(stops), blocked + planned);
     }
-    assert!(late > 50 && left_out > 50 && blocked > 50, "{late} {left_out} {blocked}");
+    assert!(late > 20 && left_out > 20 && blocked > 20, "{late} {left_out} {blocked}");
     assert!((5..=25).contains(&stopped), "{stopped} of 30");
 }
