@@ -77,6 +77,10 @@ const LEFT_OUT: &[(&str, &str)] = &[
     ("wall.motion.path.about", "the tables that are drawn have no angle"),
     ("wall.motion.path.through", "the tables that are drawn have no angle"),
     ("wall.motion.repeat", "goes on seconds later: a test compares each kind of motion with a list"),
+    (
+        "remove",
+        "changes by a step what rounding decides: the tests of zones compare each shape with the paths of grains",
+    ),
     ("inlet.", "needs the record of a stage upstream: the tests of zones and stages cut scenes and compare"),
 ];
 

@@ -94,6 +94,7 @@ const SPECIAL: &[(&str, Kind, Dimension)] = &[
     ("clump.moments", Kind::Moments, NONE),
     ("fill.shape", Kind::Shape, LENGTH),
     ("insert.shape", Kind::Shape, LENGTH),
+    ("remove.shape", Kind::Shape, LENGTH),
     ("fill.sizes", Kind::Number, NONE),
     ("insert.sizes", Kind::Number, NONE),
     ("wall.plane", Kind::Plane, LENGTH),

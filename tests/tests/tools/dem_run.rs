@@ -6,8 +6,10 @@ mod continued;
 mod device;
 mod fallen;
 mod foretold;
+mod new;
 mod settled;
 mod stopped;
+mod together;
 mod whole;
 
 use grainpipe_tests::recorded::{events, json};

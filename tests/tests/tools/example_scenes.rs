@@ -19,7 +19,7 @@ fn scenes() -> Vec<String> {
 fn every_example_runs_and_is_drawn_without_a_warning() {
     let folder = tempdir().unwrap();
     let scenes = scenes();
-    assert_eq!(scenes, ["beam", "drum", "hopper-and-belt", "screen", "screw"]);
+    assert_eq!(scenes, ["beam", "drum", "first-plant", "hopper-and-belt", "screen", "screw"]);
     for name in scenes {
         let scene = root().join("examples").join(format!("{name}.toml")).display().to_string();
         let until = if name == "beam" { "0.01" } else { "0.05" };

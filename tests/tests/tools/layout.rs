@@ -19,7 +19,7 @@ const HEAD: Head = Head {
     contact: RUBS,
 };
 
-/// Grains that fall from a faucet, roll, cross a storage plane, are pressed by a wall that follows a force.
+/// Grains that fall from a faucet, roll, cross a storage plane, could be taken out below the floor, are pressed by a wall that follows a force.
 const FLOW: &str = r#"[domain]
 periodic = ["y"]
 low = [0, -0.1, 0]
@@ -39,6 +39,8 @@ velocity = [0, 0, -1]
 [[outlet]]
 plane = "0.045,0,0,1,0,0"
 length = 0.02
+[[remove]]
+shape = "box:-1,-1,-1,1,1,-0.5"
 [[wall]]
 name = "press"
 plane = "-0.06,0,0,1,0,0"
@@ -132,6 +134,7 @@ fn the_layout_of_checkpoints_is_that_of_their_version() {
         "flights: [ClumpMotion",
         "pairs: [BondedPair",
         "?Sleepers",
+        "regions: [Removed",
     ] {
         let flat = all.replace('\n', " ").replace("[ ", "[");
         assert!(flat.contains(&filled.replace('\n', "")), "the scenes have {filled}: {all}");

@@ -10,7 +10,9 @@ mod left;
 mod lowest;
 mod memory;
 mod path;
+mod removal;
 mod room;
+mod shared_place;
 mod together;
 
 use dem::Simulation;

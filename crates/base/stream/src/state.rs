@@ -20,7 +20,7 @@ use thiserror::Error;
 const MAGIC: &[u8; 8] = b"GRNSTATE";
 /// Layout of the body. Raised whenever a field of what is written comes, goes or changes: `tests/tests/tools/layout.rs` holds each
 /// layout to its number.
-pub const VERSION: u32 = 18;
+pub const VERSION: u32 = 19;
 const HEAD: usize = 8 + 4 + 8 + 32;
 /// No state is larger [B].
 const LIMIT: usize = 1 << 38;

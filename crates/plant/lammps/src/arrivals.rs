@@ -13,15 +13,15 @@
 
 use crate::arrival::{Arrival, Way};
 use crate::depot::Depot;
-use crate::error::{LammpsError, Result};
+use crate::error::{LammpsError, Refusal, Result};
 use crate::inflow::Inflow;
 use crate::outlet;
 use dem::Simulation;
 use dem::setup::{Entry, Particle, Setup, Zone};
-use geom::Vec3;
+use geom::{Shown, Vec3};
 use run::{RunError, Schedule};
 use scene::Plan;
-use scene::plan::Insertion;
+use scene::plan::{Insertion, Planned};
 
 /// A step that does not come.
 const NEVER: f64 = 1e15;
@@ -29,7 +29,7 @@ const NEVER: f64 = 1e15;
 /// Adds all grains of a plan that come in until the end to its setup, which has the members of clumps, where they are at t = 0; in the order of their ids.
 ///
 /// # Errors
-/// An insertion without space; grains that the engine refuses, too.
+/// Insertions without space for all; grains that the engine refuses, too.
 pub fn add(setup: &mut Setup, plan: &Plan, inflow: &Inflow, schedule: &Schedule) -> Result<Vec<Arrival>> {
     let mut entries = inserted(&plan.insertions, schedule.end())?;
     let streamed = inflow.entries.iter().filter(|e| e.time <= schedule.end());
@@ -64,11 +64,23 @@ fn inserted(insertions: &[Insertion], end: f64) -> Result<Vec<Entry>> {
     for insertion in insertions {
         let mut insertion = insertion.clone();
         while insertion.next_time().is_some_and(|time| time <= end) {
-            let Some(entry) = insertion.next_entry()? else { break };
+            let Some(Planned { entry, blocked }) = insertion.next_entry()? else { break };
+            if blocked {
+                return Err(LammpsError::Cannot(vec![without_room(&insertion, &entry)]));
+            }
             all.push(entry);
         }
     }
     Ok(all)
+}
+
+/// Why a grain cannot come in that others leave no room for.
+fn without_room(insertion: &Insertion, entry: &Entry) -> Refusal {
+    let keys: Vec<&str> = insertion.keys().collect();
+    let (size, time) = (Shown(2.0 * entry.particle.radius), Shown(entry.time));
+    let why =
+        format!("leave no room for a grain of {size} m at {time} s, and in LAMMPS none waits or is left out");
+    Refusal::new(keys.join(" and "), why, "use lower rates, wider shapes, or another from for one of them")
 }
 
 /// Has the engine refuse what it would refuse in dem-run, in its words.

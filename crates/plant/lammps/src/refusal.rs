@@ -77,6 +77,12 @@ fn scene(keys: &SceneKeys, setup: &Setup) -> Vec<Refusal> {
         (keys.time.until_unbalanced.is_some(), "time.until_unbalanced", ends, "leave it out"),
         (keys.time.until_kinetic.is_some(), "time.until_kinetic", ends, "leave it out"),
         (
+            !keys.remove.is_empty(),
+            "remove",
+            "LAMMPS takes no grains out of a shape here",
+            "use an [[outlet]] with a plane, or dem-run",
+        ),
+        (
             keys.insert.iter().any(|insert| insert.when_blocked != WhenBlocked::Wait),
             "insert.when_blocked",
             "LAMMPS does not look whether there is room for a grain",

@@ -37,7 +37,7 @@ pub use fallen::Fallen;
 pub use file::RunFile;
 pub use integration::IntegrationError;
 pub use progress::Progress;
-pub use returned::warnings;
+pub use returned::{removals, warnings};
 pub use schedule::Schedule;
 pub use servos::ServoHeld;
 pub use settling::Settled;

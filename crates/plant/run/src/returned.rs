@@ -1,5 +1,6 @@
-//! Warnings about particles that went back through planes, against the flow, and about cuts that hold back the stream.
+//! What is said of particles that went back through planes, against the flow, of cuts that hold back the stream, and of what was taken out.
 
+use dem::setup::Removed;
 use dem::{HeldBack, NoRoom, Returned};
 use geom::{Shown, counted};
 
@@ -47,6 +48,14 @@ pub fn warnings(returned: &Returned) -> Vec<String> {
         .filter_map(|(i, of)| Some(format!("outlet.{i}: {}", held_back(of)?)));
     let inserts = returned.inserts.iter().enumerate().flat_map(|(k, insert)| no_room(k, insert));
     lists.iter().flat_map(warning).chain(held).chain(inserts).collect()
+}
+
+/// What each `[[remove]]` has taken out.
+pub fn removals(returned: &Returned) -> Vec<String> {
+    let said = |(k, &Removed { count, mass }): (usize, &Removed)| {
+        format!("remove.{k} took out {} of {} kg", counted(count as usize, "grain"), Shown(mass))
+    };
+    returned.regions.iter().enumerate().map(said).collect()
 }
 
 /// What insertion `k` found no room for.

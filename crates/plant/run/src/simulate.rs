@@ -191,7 +191,12 @@ impl<W: Write> Run<W> {
             self.outcome.servos.iter().map(|servo| servo.warning().unwrap_or_else(|| servo.to_string()));
         let line = self.outcome.integration.map(|error| error.to_string());
         let fallen = self.outcome.fallen.map(|fallen| fallen.to_string());
-        let lines: Vec<String> = line.into_iter().chain(servos).chain(fallen).collect();
+        let lines: Vec<String> = line
+            .into_iter()
+            .chain(servos)
+            .chain(fallen)
+            .chain(crate::removals(&self.outcome.returned))
+            .collect();
         let notes = [crate::warnings(&self.outcome.returned), self.outcome.inflow.clone()].concat();
         notes.into_iter().chain(lines).try_for_each(|note| self.note(&note))?;
         reason.map_or(Ok(()), |reason| self.stop(reason))?;

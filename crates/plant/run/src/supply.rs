@@ -90,13 +90,13 @@ impl Supply {
         }
         let insertion = &mut self.insertions[source - streams];
         let due = insertion.next_time().is_some_and(|time| time <= until);
-        if due { Ok(insertion.next_entry()?.map(Arrival::Enter)) } else { Ok(None) }
+        if due { Ok(insertion.next_entry()?.map(|planned| Arrival::Enter(planned.entry))) } else { Ok(None) }
     }
 
     /// The next arrival of all sources whose time is at most `until` [s].
     ///
     /// # Errors
-    /// A stream that breaks off, an insertion without space.
+    /// A stream that breaks off, an insertion with a particle that does not fit into its shape.
     pub(crate) fn next_until(&mut self, until: f64) -> Result<Option<Arrival>, SceneError> {
         for source in 0..self.next.len() {
             if self.next[source].is_none() {

@@ -96,6 +96,7 @@ impl Scene {
         let loads = m.wall.iter().filter_map(|w| Some(w.servo.as_ref()?.path.as_ref()?.source.as_str()));
         let walls = walls.chain(paths).chain(loads);
         let shapes = m.fill.iter().map(|f| &f.shape).chain(m.insert.iter().map(|i| &i.shape));
+        let shapes = shapes.chain(m.remove.iter().map(|r| &r.shape));
         let shapes = shapes.flat_map(|shape| geom::shape::files_of(shape));
         let strains =
             m.domain.strain.axes().into_iter().filter_map(|(_, s)| Some(s?.path.as_ref()?.source.as_str()));

@@ -29,11 +29,15 @@ pub fn of_triangles(mesh: &TriMesh) -> Vec<f64> {
     mesh.triangles().map(area).collect()
 }
 
-/// Area that each sphere of one wall stands for [m²]; the area of a disk as large as the sphere where it has fewer than three neighbours.
+/// Area that each sphere of one wall stands for [m²]: the surface of the ball where it is the whole wall; the area of a disk as large as the sphere
+/// where it has fewer than three neighbours.
 pub fn of_spheres(centres: &[Vec3], radii: &[f64]) -> Vec<f64> {
     let largest = radii.iter().copied().fold(0.0, f64::max);
     if centres.is_empty() || !(largest > 0.0) {
         return vec![0.0; centres.len()];
+    }
+    if let [radius] = radii {
+        return vec![4.0 * std::f64::consts::PI * radius * radius];
     }
     let grid = Grid::new(centres, 2.0 * largest);
     let disk = |radius: f64| std::f64::consts::PI * radius * radius;
@@ -150,10 +154,12 @@ mod tests {
     }
 
     #[test]
-    fn a_lone_sphere_stands_for_its_disk() {
+    fn spheres_without_neighbours_stand_for_their_disks_and_one_for_its_ball() {
         let found = of_spheres(&[Vec3::zeros(), Vec3::x()], &[0.1, 0.2]);
         let disk = |r: f64| std::f64::consts::PI * r * r;
         assert!((found[0] - disk(0.1)).abs() < 1e-15 && (found[1] - disk(0.2)).abs() < 1e-15);
+        // A wall of one sphere is a ball.
+        assert_eq!(of_spheres(&[Vec3::x()], &[0.2]), [4.0 * disk(0.2)]);
         assert!(of_spheres(&[], &[]).is_empty());
     }
 }

@@ -339,6 +339,8 @@ source = "walls.mcap"
 [[particles]]
 source = "grains.csv"
 material = "sinter"
+[[remove]]
+shape = "box:-2,-2,-2,2,2,-1"
 "#;
 
 /// Every law between two materials, and bonds.

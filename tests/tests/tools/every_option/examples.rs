@@ -50,6 +50,7 @@ pub const EXAMPLES: &[&str] = &[
     "dem-run s.toml --set contact.0.restitution=0.3 --until 0.05 --resume run.mcap --whole -o whole.mcap",
     "dem-run s.toml --check",
     "dem-run --keys",
+    "dem-run --new plant",
     "dem-run s.toml --explain",
     "dem-run named.toml --materials --check",
     "dem-run s.toml -o run.mcap",

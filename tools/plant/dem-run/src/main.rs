@@ -4,6 +4,7 @@ mod continued;
 mod device;
 mod keys;
 mod misplaced;
+mod new;
 mod parts;
 mod watch;
 
@@ -18,11 +19,12 @@ use run::{Checkpoint, Earlier, Outcome, Progress, RunError, Settings, run};
 use scene::{Input, Plan, Scene, SceneError};
 use std::fs::File;
 use std::io::{Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use watch::{Filling, Watch};
 
 const EXAMPLES: &str = "Examples:\n\
+    \x20 dem-run --new plant\n\
     \x20 dem-run scene.toml --explain\n\
     \x20 dem-run scene.toml -o run.mcap\n\
     \x20 dem-run lined.toml walls.mcap --set contact.0.restitution=0.3 -o lined.mcap\n\
@@ -33,7 +35,7 @@ const EXAMPLES: &str = "Examples:\n\
 #[command(after_help = EXAMPLES)]
 struct Args {
     /// The scene (TOML), - for stdin
-    #[arg(value_name = "SCENE.toml", required_unless_present = "keys")]
+    #[arg(value_name = "SCENE.toml", required_unless_present_any = ["keys", "new"])]
     scene: Option<Source>,
     /// Walls and inlets (MCAP, detected by content), - for stdin
     #[arg(value_name = "WALLS|INLET.mcap")]
@@ -53,6 +55,9 @@ struct Args {
     /// Print every key of a scene, with type, unit, range, default, meaning and an example
     #[arg(long, exclusive = true)]
     keys: bool,
+    /// Make a folder with a commented scene that runs as it is
+    #[arg(long, value_name = "FOLDER", exclusive = true)]
+    new: Option<PathBuf>,
     /// Check the scene and its inputs without running
     #[arg(long)]
     check: bool,
@@ -74,6 +79,9 @@ struct Args {
 
 fn main() -> ExitCode {
     cli::run("dem-run", |args: Args| {
+        if let Some(folder) = &args.new {
+            return new::write(folder);
+        }
         let Some(scene) = args.scene.clone() else { return keys::print(&args.output) };
         dem_run(args, &scene)
     })
@@ -282,12 +290,14 @@ fn warn(outcome: &Outcome) {
 fn summary(outcome: &Outcome, ledger: bool) -> String {
     let held = outcome.servos.iter().filter(|servo| servo.warning().is_none());
     let held: String = held.map(|servo| format!("; {servo}")).collect();
+    let removed: String =
+        run::removals(&outcome.returned).iter().map(|removed| format!("; {removed}")).collect();
     let unknown = if ledger { "" } else { UNMEASURED };
     let error = outcome.integration.as_ref().map_or(unknown.to_owned(), |error| format!(", {error}"));
     let settled = outcome.settled.as_ref().map_or(String::new(), |why| format!("; ended at rest: {why}"));
     let by = outcome.device.as_ref().map_or(String::new(), |name| format!(" on {name}"));
     format!(
-        "{} of {:.3e} s to {} s{by}, {}, {}{error}{settled}{held}",
+        "{} of {:.3e} s to {} s{by}, {}, {}{error}{settled}{removed}{held}",
         geom::counted(outcome.steps, "step"),
         outcome.dt,
         geom::Shown(outcome.time),

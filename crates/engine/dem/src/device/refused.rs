@@ -2,10 +2,21 @@
 
 use crate::device::kinds::numbers_of;
 use crate::model::Model;
-use crate::setup::{CameBack, Zone, ZoneMotion};
+use crate::setup::{CameBack, Setup, WallDetail, Zone, ZoneMotion};
 use crate::state::State;
 use laws::effects::{ContactLaw, active};
 use laws::simd::Precision;
+
+/// Sums of walls, with the key that asks for them.
+fn wall_sums(setup: &Setup) -> &'static str {
+    match setup.wall_sums {
+        WallDetail::Parts => "wear of walls (output.wear, which keeps the energy ledger)",
+        _ if setup.walls.iter().any(|wall| wall.servo.is_some()) => {
+            "forces on walls over all steps (output.wall_forces; a servo has them, too)"
+        }
+        _ => "forces on walls over all steps (output.wall_forces)",
+    }
+}
 
 /// What a scene asks for that a device does not compute; empty: nothing.
 pub fn refused(model: &Model, state: &State) -> Vec<String> {
@@ -18,6 +29,7 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     refuse(!state.bonds.none(), "bonds");
     refuse(!state.clumps.none() || !setup.clumps.entries.is_empty(), "rigid clumps");
     refuse(!setup.outlets.is_empty(), "grains that leave while it runs");
+    refuse(!setup.removals.is_empty(), "grains that are taken out of a region ([[remove]])");
     let enters = !setup.inlets.is_empty();
     let follows = |zone: &Zone| zone.motion == ZoneMotion::Recorded;
     refuse(setup.inlets.iter().any(follows), "grains that come in along recorded paths");
@@ -27,7 +39,7 @@ pub fn refused(model: &Model, state: &State) -> Vec<String> {
     refuse(state.sleepers.is_some(), "sleep");
     refuse(state.strained.is_some(), "a strained domain");
     refuse(setup.ledger || setup.guards.energy.is_finite(), "the energy ledger");
-    refuse(!state.wall_sums.none(), "forces on walls over all steps (output.wall_forces)");
+    refuse(!state.wall_sums.none(), wall_sums(setup));
     refuse(setup.precision != Precision::Double, "contacts in single precision");
     for (body, wall) in model.walls.iter().zip(&setup.walls) {
         refuse(body.answers(), &format!("wall '{}', which follows a force or stands on a spring", wall.name));

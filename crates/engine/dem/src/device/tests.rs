@@ -362,6 +362,13 @@ fn what_it_does_not_compute_is_named() {
     let mut sim = Simulation::new(setup).expect("sound");
     let refused = sim.use_device(Box::new(Local::default())).expect_err("it does not compute that");
     assert_eq!(refused, ["sleep", "the energy ledger"]);
+    // What is asked of walls has the key that asks for it.
+    for (detail, key) in [(WallDetail::Whole, "output.wall_forces"), (WallDetail::Parts, "output.wear")] {
+        let setup = Setup { wall_sums: detail, ..trough(every_composition()[5]) };
+        let mut sim = Simulation::new(setup).expect("sound");
+        let refused = sim.use_device(Box::new(Local::default())).expect_err("it does not compute that");
+        assert!(refused.len() == 1 && refused[0].contains(key), "{refused:?}");
+    }
 }
 
 /// A device that fails at one of its calls.

@@ -264,6 +264,7 @@ fn strain(setup: &Setup) -> Result<(), SetupError> {
     let has = [
         (!setup.walls.is_empty(), "walls"),
         (!(setup.inlets.is_empty() && setup.outlets.is_empty()), "inlets and outlets"),
+        (!setup.removals.is_empty(), "regions that take particles out"),
         (setup.gravity.norm() > 0.0, "gravity"),
         (setup.drag.is_some(), "fluid"),
         (setup.sleep.is_some(), "particles that sleep"),

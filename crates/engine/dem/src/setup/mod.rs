@@ -8,6 +8,7 @@ pub mod clump_shape;
 pub mod clumps;
 pub mod earlier_contacts;
 mod mount;
+mod removal;
 mod servo;
 mod step;
 mod strain;
@@ -22,6 +23,7 @@ pub use laws::effects::{ContactHistory, ContactLaw, Material};
 pub use laws::simd::number::Precision;
 pub use laws::slowing::fluid::{Drag, DragLaw};
 pub use mount::Mount;
+pub use removal::{Removal, Removed};
 pub use servo::{Length, Servo, Target};
 pub use step::{Sampling, Step, WallDetail};
 pub use strain::Strain;
@@ -67,6 +69,8 @@ pub struct Setup {
     pub walls: Vec<Wall>,
     /// Storage planes with their zones (JP5440448B2).
     pub outlets: Vec<Zone>,
+    /// Regions that free particles are taken out of.
+    pub removals: Vec<Removal>,
     /// Zones that particles enter by; `Entry::inlet` is an index of this list.
     pub inlets: Vec<Zone>,
     /// Largest radius [m] that inlets will bring; 0 when there is none.
@@ -121,6 +125,7 @@ impl Default for Setup {
             entry_bonds: None,
             walls: Vec::new(),
             outlets: Vec::new(),
+            removals: Vec::new(),
             inlets: Vec::new(),
             largest_entry: 0.0,
             smallest_entry: 0.0,

@@ -48,6 +48,7 @@ impl Simulation {
         state.bonds.advance(&state.particles, model.dt);
         let freed = zones::travel::move_zone_particles(model, state, lists);
         zones::cross::find_crossings(model, state, lists);
+        zones::removal::remove_inside(model, state, lists);
         freed?;
         check_overlap(model, state, lists, &found.deep, true)?;
         if moved.too_fast {

@@ -1,6 +1,6 @@
 //! Particles that go back through a plane, against the flow: what is there is not simulated by this stage.
 
-use crate::setup::Setup;
+use crate::setup::{Removed, Setup};
 use crate::state::particles::select;
 use crate::state::row_order::RowOrder;
 use serde::{Deserialize, Serialize};
@@ -36,7 +36,7 @@ pub struct NoRoom {
     pub skipped: u64,
 }
 
-/// How many particles went back or found no room, and what cuts do to the stream.
+/// How many particles went back, found no room or were taken out, and what cuts do to the stream.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Returned {
     /// For each watched inlet: particles that were behind its calculation plane again.
@@ -51,6 +51,8 @@ pub struct Returned {
     pub held_back: Vec<HeldBack>,
     /// For each insertion, in the order of the scene: what it found no room for; a clump counts as one.
     pub inserts: Vec<NoRoom>,
+    /// For each region of [`Setup::removals`]: what it has taken out.
+    pub regions: Vec<Removed>,
 }
 
 impl Returned {
@@ -82,6 +84,7 @@ impl ReturnCounts {
             fallen: none(outlets),
             held_back: vec![HeldBack::default(); outlets],
             inserts: vec![NoRoom::default(); setup.inlets.len() - watched],
+            regions: vec![Removed::default(); setup.removals.len()],
         };
         let origins = if watched > 0 { vec![Origin::default(); particles] } else { Vec::new() };
         ReturnCounts { origins, any: false, returned }

@@ -167,6 +167,8 @@ impl Zones {
             && [now.outlets.len(), now.fallen.len(), now.held_back.len()]
                 == [then.outlets.len(), then.fallen.len(), then.held_back.len()]
             && now.inserts.len() == then.inserts.len()
+            && now.regions.len() == then.regions.len()
+            && now.regions.iter().all(|r| r.count < MANY && is_meant(&r.mass))
             && now.inserts.iter().all(|i| few(&[i.waited, i.waiting, i.skipped]))
             && [&now.inlets, &now.removed, &now.outlets, &now.fallen].iter().all(|counts| few(counts))
             && self.lost.origins.len() == origins

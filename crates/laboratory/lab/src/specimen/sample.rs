@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, Table};
 
 /// Sections that the test writes, or that no specimen has.
-const SECTIONS: [&str; 7] = ["wall", "output", "domain", "inlet", "outlet", "insert", "sleep"];
+const SECTIONS: [&str; 8] = ["wall", "output", "domain", "inlet", "outlet", "remove", "insert", "sleep"];
 /// Keys of `[time]` that the test sets.
 const TIMES: [&str; 3] = ["until", "until_unbalanced", "until_kinetic"];
 /// Keys of `[[fill]]` that the test sets.

@@ -83,6 +83,7 @@ pub(super) fn effects(scene: &Scene, setup: &Setup) -> Vec<EffectToMeasure> {
     let strained: Vec<String> = strained.map(|(axis, _)| format!("domain.strain.{axis}")).collect();
     add("strained domain", strained.join(", "), None);
     add("outlet", keys::numbered("outlet", setup.outlets.len()), None);
+    add("remove", keys::numbered("remove", setup.removals.len()), None);
     add("inlet", keys::numbered("inlet", written.inlet.len()), None);
     add("insert", keys::numbered("insert", written.insert.len()), None);
     add("wall motion", keys::motions(scene, setup, false), None);

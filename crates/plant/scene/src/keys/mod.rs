@@ -87,6 +87,8 @@ table! {
         wall: Vec<Wall> = absent("none"), "", Any, "";
         /// Storage planes with their zones.
         outlet: Vec<Outlet> = absent("none"), "", Any, "";
+        /// Shapes that particles are taken out of.
+        remove: Vec<Remove> = absent("none"), "", Any, "";
         /// Zones that recorded particles enter by.
         inlet: Vec<Inlet> = absent("none"), "", Any, "";
         /// Bonds between particles that are close at t = 0.

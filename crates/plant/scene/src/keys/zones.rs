@@ -1,7 +1,7 @@
-//! Zones that grains leave and enter a stage by: `[[outlet]]` and `[[inlet]]`.
+//! Zones that grains leave and enter a stage by, `[[outlet]]` and `[[inlet]]`, and those that take grains out: `[[remove]]`.
 
 use super::table::table;
-use super::{OrAuto, PlaneText};
+use super::{OrAuto, PlaneText, ShapeText};
 use dem::setup::{ZoneMotion, ZoneTest};
 
 table! {
@@ -19,6 +19,14 @@ table! {
         samples: Option<f64> = absent("ten steps"), "s", Positive, "1e-4";
         /// Mark of the plant that the stage was cut from ([stages.md](../how-to/stages.md#what-is-refused)).
         plant: Option<String> = absent("none"), "", Any, "\"1f3a\"";
+    }
+}
+
+table! {
+    /// `[[remove]]`
+    Remove section {
+        /// Where grains are taken out: `box:…`, `sphere:…`, `cylinder:…`, `cone:…` or `mesh:FILE` (closed), as for `[[insert]]`.
+        shape: ShapeText = required, "m", Any, "\"box:0,0,0,0.1,0.1,0.02\"";
     }
 }
 

@@ -8,7 +8,7 @@ use crate::plan::Placing;
 use crate::plan::grains::obstacles::Obstacles;
 use crate::plan::insertions::insertion::Insertion;
 use crate::scene::Scene;
-use dem::setup::{self, EntryBonds, Particle, Zone};
+use dem::setup::{self, EntryBonds, Particle, Removal, Zone};
 use geom::Shape;
 use mesh::Files;
 use record::{Map, MaterialRecord, Sizes};
@@ -72,6 +72,7 @@ pub(super) struct PlanBuilder<'a> {
     /// Areas of servos, until all walls are known.
     pub servo_areas: Vec<ServoArea>,
     pub outlets: Vec<Zone>,
+    pub removals: Vec<Removal>,
     pub inlets: Vec<Zone>,
     /// Materials of particles that come in later.
     pub entry_materials: Vec<u16>,
@@ -113,6 +114,7 @@ impl<'a> PlanBuilder<'a> {
             wall_materials: Vec::new(),
             servo_areas: Vec::new(),
             outlets: Vec::new(),
+            removals: Vec::new(),
             inlets: Vec::new(),
             entry_materials: Vec::new(),
             entry_bonds: None,

@@ -1,7 +1,7 @@
 //! From a scene to a plan: the engine's setup, and what comes in later.
 //!
 //! [`Scene::plan_with`] reads as the order of the steps: shapes of [`clumps`]; [`grains`]; [`walls`], and fills again where they lie in one;
-//! inlets ([`zones`]); [`insertions`]; outlets; an outlet for what falls past all walls; then the [`setup`] with the [`laws`] and the time step.
+//! inlets ([`zones`]); [`insertions`]; outlets and what takes grains out; an outlet for what falls past all walls; then the [`setup`] with the [`laws`] and the time step.
 //! Each step adds to the [`builder`]. [`warnings`] about implausible values come last.
 
 mod builder;
@@ -17,7 +17,7 @@ mod zones;
 
 pub use builder::PlannedInlet;
 pub use grains::packing::bounds;
-pub use insertions::insertion::Insertion;
+pub use insertions::insertion::{Insertion, Planned};
 pub use laws::accuracy::{ImpactError, impact_error, smallest_accuracies};
 pub use laws::contacts::{dropped, most_specific};
 pub use walls::below::Below;
@@ -104,6 +104,7 @@ impl Scene {
         builder.inlets(streams)?;
         builder.insertions()?;
         builder.outlets()?;
+        builder.removals()?;
         builder.outside()?;
         builder.finish()
     }

@@ -70,6 +70,7 @@ impl PlanBuilder<'_> {
             entry_bonds: self.entry_bonds,
             walls: self.walls,
             outlets: self.outlets,
+            removals: self.removals,
             inlets: self.inlets,
             entry_materials: self.entry_materials,
         };

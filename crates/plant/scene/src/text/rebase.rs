@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, TableLike, Value, value};
 
 /// Keys that name a file, by list of tables.
-const KEYS: [(&str, &[&str]); 6] = [
+const KEYS: [(&str, &[&str]); 7] = [
     ("wall", &["source", "mesh"]),
     ("clump", &["mesh"]),
     ("particles", &["source"]),
     ("inlet", &["source"]),
     ("fill", &["sizes", "shape"]),
     ("insert", &["sizes", "shape"]),
+    ("remove", &["shape"]),
 ];
 
 /// Shapes that are files.

@@ -39,7 +39,7 @@ impl Cutting<'_> {
     pub fn mark(&self) -> Result<String> {
         let all: Table = toml::from_str(&self.scene.text.toml).unwrap_or_default();
         let mut kept = Kept::default();
-        for key in ["gravity", "domain", "drag", "fill", "insert", "body"] {
+        for key in ["gravity", "domain", "drag", "fill", "insert", "remove", "body"] {
             kept.table.extend(all.get(key).map(|value| (key.to_owned(), value.clone())));
         }
         self.mark_grains(&all, &mut kept)?;

@@ -70,7 +70,7 @@ impl Zones {
         };
         let ids =
             if setup.inlets.is_empty() { BTreeSet::new() } else { particles.id.iter().copied().collect() };
-        let zones = !setup.outlets.is_empty() || !setup.inlets.is_empty();
+        let zones = !(setup.outlets.is_empty() && setup.inlets.is_empty() && setup.removals.is_empty());
         let flags = if zones { vec![false; particles.len()] } else { Vec::new() };
         Zones {
             outlets: setup.outlets.clone(),
@@ -95,9 +95,9 @@ impl Zones {
         self.pending.insert(before, e);
     }
 
-    /// Whether the scene has no zone at all.
+    /// Whether the scene has no zone at all, and no region that takes particles out.
     pub fn none(&self) -> bool {
-        self.outlets.is_empty() && self.inlets.is_empty()
+        self.outlets.is_empty() && self.inlets.is_empty() && self.lost.returned.regions.is_empty()
     }
 
     /// Whether a particle is listed and not in the calculation: past an exclusion plane, or its time to come in is yet to come.

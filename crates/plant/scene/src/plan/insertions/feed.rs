@@ -8,7 +8,7 @@ use crate::plan::grains::random::{INSERT, generator, random_orientation};
 use crate::plan::insertions::section::Section;
 use crate::plan::insertions::total::Total;
 use crate::plan::insertions::windows::Windows;
-use dem::setup::{Entry, EntryClump, Particle};
+use dem::setup::{Entry, EntryClump, Particle, WhenBlocked};
 use geom::{Plane, Shape, Shown, Vec3};
 use rand_pcg::Pcg64Mcg;
 
@@ -24,6 +24,8 @@ pub(in crate::plan) struct Feed {
     pub section: Section,
     pub velocity: Vec3,
     pub inserted: Inserted,
+    /// What becomes of a particle that has no room.
+    pub when_blocked: WhenBlocked,
     rate: Rate,
     windows: Windows,
     /// Of the window that is open, or opens next.
@@ -110,6 +112,7 @@ impl Feed {
             section,
             velocity,
             inserted,
+            when_blocked: entry.when_blocked,
             rate: entry.rate.map_or(Rate::Count(entry.rate_count.unwrap_or(0.0)), Rate::Mass),
             windows: Windows::new(entry),
             total: Total::new(entry),

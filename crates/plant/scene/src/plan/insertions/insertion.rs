@@ -2,32 +2,55 @@
 //!
 //! The shape is a zone: particles are generated where its velocity enters it, keep that velocity through it and
 //! are free behind it. Seen from the moving particles, successive positions are random and no two
-//! touch, because two particles that come Δt apart are v Δt apart along the velocity v.
+//! touch, because two particles that come Δt apart are v Δt apart along the velocity v. Where several entries leave no room for one, it is given where it
+//! has room first, and the engine decides by its `when_blocked`.
 
 use crate::error::{Result, SceneError};
+use crate::plan::insertions::ahead::Ahead;
 use crate::plan::insertions::feed::{Expected, Feed};
-use dem::setup::Entry;
+use dem::setup::{Entry, WhenBlocked};
 use geom::{Shown, Vec3};
 use rand_pcg::Pcg64Mcg;
-use std::collections::VecDeque;
 
-/// Tries for a place: random positions saturate at a solid fraction of 0.38 in space.
+/// Draws for a place: random positions saturate at a solid fraction of 0.38 in space.
 const TRIES: usize = 20_000;
-const CURE: &str = "use a lower rate, a wider shape or a higher velocity";
+/// Draws for a grain after several that found no room: what is saturated is not searched at full length for each.
+const FEWEST_TRIES: usize = 250;
+/// Draws after which a grain does not fit into the shape at all.
+const MOST_TRIES: usize = 100 * TRIES;
+const CURE: &str = "use a wider shape, or smaller grains";
 
 /// Entries of `[[insert]]` that come through one place at one velocity, and give their particles one after the other, in the order of their
-/// times: none touches another, of whichever entry.
+/// times: none touches another, of whichever entry, as long as there is room.
 #[derive(Debug, Clone)]
 pub struct Insertion {
     pub(in crate::plan) feeds: Vec<Feed>,
-    /// Those that the next may touch, as they are seen by one that moves with them.
-    recent: VecDeque<(Vec3, f64)>,
+    /// Those that the next may touch.
+    ahead: Ahead,
+    /// Draws for the next place.
+    tries: usize,
+}
+
+/// A particle that an insertion gives.
+#[derive(Debug, Clone, Copy)]
+pub struct Planned {
+    /// When and where it is due.
+    pub entry: Entry,
+    /// Whether particles before it leave it no room then: the engine has it wait, leaves it out or stops.
+    pub blocked: bool,
+}
+
+/// A position across the flow.
+struct Place {
+    across: Vec3,
+    /// Those before it are clear of it once they are this much further on [m]; 0: when it is due.
+    clear_after: f64,
 }
 
 impl Insertion {
-    /// One entry alone.
-    pub(in crate::plan) fn new(feed: Feed) -> Insertion {
-        Insertion { feeds: vec![feed], recent: VecDeque::new() }
+    /// Entries that come through one place.
+    pub(in crate::plan) fn new(feeds: Vec<Feed>) -> Insertion {
+        Insertion { feeds, ahead: Ahead::default(), tries: TRIES }
     }
 
     /// Names of its entries in messages.
@@ -55,11 +78,11 @@ impl Insertion {
         })
     }
 
-    /// The next particle.
+    /// The next particle: where it touches none of those before it, or else where they are gone first.
     ///
     /// # Errors
-    /// No space is found.
-    pub fn next_entry(&mut self) -> Result<Option<Entry>> {
+    /// A particle that does not fit into the shape.
+    pub fn next_entry(&mut self) -> Result<Option<Planned>> {
         let Some((time, at)) = self.first() else { return Ok(None) };
         let feed = &self.feeds[at];
         let mut random = feed.random.clone();
@@ -67,34 +90,53 @@ impl Insertion {
         let found = self.place(at, grain.diameter / 2.0, time, &mut random);
         let feed = &mut self.feeds[at];
         feed.random = random;
-        let Some(across) = found else {
+        let Some(Place { across, clear_after }) = found else {
             let (size, time) = (Shown(grain.diameter), Shown(time));
-            let why = format!("no room for a particle of diameter {size} m at {time} s");
+            let why =
+                format!("a particle of diameter {size} m, due at {time} s, does not fit into the shape");
             return Err(SceneError::file(&feed.key, why, CURE));
         };
-        Ok(Some(feed.entry(time, across, &grain)))
+        Ok(Some(Planned { entry: feed.entry(time, across, &grain), blocked: clear_after > 0.0 }))
     }
 
-    /// A position across the flow where a sphere of a feed touches none of those before it.
-    fn place(&mut self, feed: usize, radius: f64, time: f64, random: &mut Pcg64Mcg) -> Option<Vec3> {
-        let Feed { section, velocity, .. } = &self.feeds[feed];
+    /// A position across the flow where a sphere of a feed touches none of those before it, or for the shortest time.
+    fn place(&mut self, feed: usize, radius: f64, time: f64, random: &mut Pcg64Mcg) -> Option<Place> {
+        let Feed { section, velocity, when_blocked, .. } = &self.feeds[feed];
         let axis = section.frame[0];
         let reach = velocity.norm() * time;
         let behind = axis * (section.ranges[0].0 - reach);
         // Those further ahead of every start than the largest diameter touch nothing that comes from now on.
-        let start = |f: &Feed| f.section.ranges[0].0 + f.inserted.grading.range().high;
+        let largest = |f: &Feed| f.inserted.grading.range().high;
+        let start = |f: &Feed| f.section.ranges[0].0 + largest(f);
         let far = self.feeds.iter().map(start).fold(f64::NEG_INFINITY, f64::max);
-        while self.recent.front().is_some_and(|(p, _)| p.dot(&axis) + reach > far) {
-            self.recent.pop_front();
+        self.ahead.forget(&axis, far - reach);
+        let mut best: Option<Place> = None;
+        for n in 0..MOST_TRIES {
+            if n >= self.tries && best.is_some() {
+                break;
+            }
+            let Some(across) = section.candidate(radius, random) else { continue };
+            let least = best.as_ref().map_or(f64::INFINITY, |place| place.clear_after);
+            let clear_after = self.ahead.clear_after(across + behind, radius, &axis, least);
+            if clear_after < least {
+                best = Some(Place { across, clear_after });
+            }
+            if clear_after == 0.0 {
+                break;
+            }
         }
-        let across = (0..TRIES).find_map(|_| {
-            let across = section.candidate(radius, random)?;
-            let moving = across + behind;
-            let free = |(p, r): &(Vec3, f64)| (p - moving).norm_squared() >= (r + radius) * (r + radius);
-            self.recent.iter().all(free).then_some(across)
-        })?;
-        self.recent.push_back((across + behind, radius));
-        Some(across)
+        let place = best?;
+        let blocked = place.clear_after > 0.0;
+        self.tries = if blocked { self.tries / 2 } else { self.tries * 2 }.clamp(FEWEST_TRIES, TRIES);
+        // One that waits for long is not reckoned with: the engine looks for its room.
+        let comes = match when_blocked {
+            WhenBlocked::Wait => place.clear_after <= largest(&self.feeds[feed]),
+            WhenBlocked::Skip | WhenBlocked::Stop => !blocked,
+        };
+        if comes {
+            self.ahead.push(place.across + behind - axis * place.clear_after, radius);
+        }
+        Some(place)
     }
 }
 
@@ -130,7 +172,8 @@ mod tests {
         let mut insertion = insertion(0.8).unwrap();
         let start = insertion.clone();
         let mut all: Vec<Entry> = Vec::new();
-        while let Some(entry) = insertion.next_entry().unwrap() {
+        while let Some(Planned { entry, blocked }) = insertion.next_entry().unwrap() {
+            assert!(!blocked);
             assert!((entry.particle.position.z - 1.03).abs() < 1e-12);
             all.push(entry);
         }
@@ -141,6 +184,13 @@ mod tests {
         // Open in the first half of the time: half of them in it, all of them behind it.
         assert!((there / expected - 0.75).abs() < 1e-12, "{there} of {expected} on average");
         none_touch(&all);
+    }
+
+    /// The next particle of one that has room for all.
+    fn next(insertion: &mut Insertion) -> Option<Entry> {
+        let Planned { entry, blocked } = insertion.next_entry().unwrap()?;
+        assert!(!blocked, "{} s", entry.time);
+        Some(entry)
     }
 
     fn none_touch(all: &[Entry]) {
@@ -177,7 +227,7 @@ mod tests {
         };
         let mut found = several(&[&layer(0.0), &layer(1.0), &layer(2.0)]).unwrap();
         assert_eq!(found.len(), 1, "one group");
-        let all: Vec<Entry> = std::iter::from_fn(|| found[0].next_entry().unwrap()).collect();
+        let all: Vec<Entry> = std::iter::from_fn(|| next(&mut found[0])).collect();
         none_touch(&all);
         // Another velocity while grains of the first are on their way is refused; a little later it is not.
         let other = |from: &str| format!("velocity = [0, 0, -2]\nrate = 0.8\nfrom = {from}");
@@ -195,7 +245,7 @@ mod tests {
         let mut found = several(&[coke, ore]).unwrap();
         assert_eq!(found.len(), 1);
         let expected = found[0].expected(100.0).all;
-        let all: Vec<Entry> = std::iter::from_fn(|| found[0].next_entry().unwrap()).collect();
+        let all: Vec<Entry> = std::iter::from_fn(|| next(&mut found[0])).collect();
         none_touch(&all);
         let window = |from: f64| all.iter().filter(move |e| (from..from + 1.0).contains(&e.time));
         for k in 0..3 {
@@ -210,7 +260,7 @@ mod tests {
         for (until, repeat, open) in [(0.2, 0.2, 1.0), (0.001, 0.02, 0.05), (0.1, 0.2, 0.5)] {
             let keys = format!("velocity = [0, 0, -1]\nrate_count = 203\nuntil = {until}\nrepeat = {repeat}");
             let mut found = several(&[&keys]).unwrap();
-            let next = || found[0].next_entry().unwrap().filter(|e| e.time < 1.0);
+            let next = || next(&mut found[0]).filter(|e| e.time < 1.0);
             let (count, due) = (std::iter::from_fn(next).count() as f64, 203.0 * open);
             // The first comes at once.
             assert!((count - due).abs() <= 1.0, "{count} of {due}: {until} of {repeat} s");
@@ -222,7 +272,7 @@ mod tests {
             let keys = format!("velocity = [0, 0, -1]\n{keys}\nrepeat = 2\ntimes = 3");
             let mut found = several(&[&keys]).unwrap();
             assert_eq!(found[0].feeds[0].falls_short().map(|f| f.0), short, "{keys}");
-            let all: Vec<Entry> = std::iter::from_fn(|| found[0].next_entry().unwrap()).collect();
+            let all: Vec<Entry> = std::iter::from_fn(|| next(&mut found[0])).collect();
             for k in 0..3 {
                 let from = 2.0 * f64::from(k);
                 let come = all.iter().filter(|e| (from..from + 2.0).contains(&e.time));
@@ -243,9 +293,7 @@ mod tests {
     }
 
     fn all(mut insertion: Insertion) -> Vec<f64> {
-        std::iter::from_fn(|| insertion.next_entry().unwrap())
-            .map(|e| 1000.0 * volume(e.particle.radius))
-            .collect()
+        std::iter::from_fn(|| next(&mut insertion)).map(|e| 1000.0 * volume(e.particle.radius)).collect()
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! `[[insert]]`: zones with a prescribed velocity, and what they insert.
 
+pub(in crate::plan) mod ahead;
 pub(in crate::plan) mod clear;
 pub(in crate::plan) mod feed;
 pub(in crate::plan) mod insertion;
@@ -64,14 +65,13 @@ impl PlanBuilder<'_> {
         }
     }
 
-    /// Puts a feed with those that come through the same place: none of their particles are to touch.
+    /// Puts a feed with all that come through the same place: none of their particles are to touch.
     fn join(&mut self, i: usize, feed: Feed) -> Result<()> {
-        let meeting = |group: &&mut Insertion| group.feeds.iter().any(|other| other.meets(&feed));
-        let Some(group) = self.insertions.iter_mut().find(meeting) else {
-            self.insertions.push(Insertion::new(feed));
-            return Ok(());
-        };
-        if let Some(other) = group.feeds.iter().find(|other| !other.moves_with(&feed)) {
+        let meets = |group: &Insertion| group.feeds.iter().any(|other| other.meets(&feed));
+        let at = self.insertions.iter().position(meets).unwrap_or(self.insertions.len());
+        let meeting: Vec<Insertion> = self.insertions.extract_if(at.., |group| meets(group)).collect();
+        let mut feeds: Vec<Feed> = meeting.into_iter().flat_map(|group| group.feeds).collect();
+        if let Some(other) = feeds.iter().find(|other| !other.moves_with(&feed)) {
             let why =
                 format!("is another one than that of {}, which comes through the same place", other.key);
             let (key, cure) =
@@ -79,7 +79,8 @@ impl PlanBuilder<'_> {
             let [x, y, z] = self.scene.keys.insert[i].velocity.map(Shown);
             return Err(self.check.wrong(&key, format!("[{x}, {y}, {z}] m/s"), &why, cure));
         }
-        group.feeds.push(feed);
+        feeds.push(feed);
+        self.insertions.insert(at, Insertion::new(feeds));
         Ok(())
     }
 

@@ -1,4 +1,4 @@
-//! `[[inlet]]`: zones that recorded particles enter by, and the streams that bring them; `[[outlet]]`: zones that record.
+//! `[[inlet]]`: zones that recorded particles enter by, and the streams that bring them; `[[outlet]]`: zones that record; `[[remove]]`: shapes that take grains out.
 
 pub(in crate::plan) mod same_zone;
 
@@ -6,8 +6,9 @@ use crate::error::{Result, SceneError};
 use crate::input::{InletSource, Input, ZoneRecord};
 use crate::keys::Inlet;
 use crate::plan::builder::{PlanBuilder, PlannedInlet};
+use crate::plan::grains::packing::bounds;
 use crate::plan::walls;
-use dem::setup::{ClumpScales, EntryBonds, Zone};
+use dem::setup::{ClumpScales, EntryBonds, Removal, Zone};
 use geom::Shown;
 use record::{ClumpRecord, MaterialRecord};
 
@@ -121,6 +122,21 @@ impl PlanBuilder<'_> {
             }
             _ => Ok(()),
         }
+    }
+
+    /// `[[remove]]`: shapes with an end.
+    pub(in crate::plan) fn removals(&mut self) -> Result<()> {
+        for (i, entry) in self.keys().remove.iter().enumerate() {
+            let key = format!("remove.{i}.shape");
+            let shape = self.shape(&key, &entry.shape)?;
+            let Some(bounds) = bounds(&shape) else {
+                let why = "has no end: only box, sphere, cylinder, cone and a closed mesh (without '!') take grains out";
+                let cure = "use one of these, or an [[outlet]] for all that passes a plane";
+                return Err(self.check.wrong(&key, &entry.shape, why, cure));
+            };
+            self.removals.push(Removal { shape, bounds });
+        }
+        Ok(())
     }
 
     /// `[[outlet]]`: storage planes with their zones.
