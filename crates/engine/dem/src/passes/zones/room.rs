@@ -3,7 +3,7 @@
 //! ```text
 //! it is due      → a place that another particle has at that time: it waits, is left out, or the run stops
 //! listed, before → it meets a free particle: it is looked at again when it is due
-//! on its way     → it meets a free particle, or a wall after it was clear of walls: it is free from then on
+//! on its way     → it meets a free particle or one that comes in at another velocity, or a wall after it was clear of walls: it is free from then on
 //! end of its way → it is free
 //! ```
 //!
@@ -15,6 +15,7 @@ use crate::passes::touching::position_before;
 use crate::setup::{Entry, Particle};
 use crate::state::clumps::starts;
 use crate::state::{Direction, State, ZoneParticle};
+use geom::Vec3;
 use std::collections::BTreeSet;
 
 /// Overlap over the smaller radius that is rounding [–].
@@ -97,7 +98,7 @@ pub struct InWall {
 /// What an inserted particle on its way had met when forces were computed.
 #[derive(Default)]
 struct Meets {
-    /// Whether a particle that is free.
+    /// Whether a particle that is in its way.
     particle: bool,
     /// The wall that it overlaps most.
     wall: Option<InWall>,
@@ -115,9 +116,6 @@ impl Meets {
             let (slot, slots) = (end.slot(), &lists.slots);
             let segment = slots.segment_of(slot);
             let wall = if let With::Wall(wall) = segment.with { Some(wall) } else { None };
-            if wall.is_none() && !state.zones.is_free(slots.other(end) as usize) {
-                continue;
-            }
             let (partner, of_partner) = lists.partner(&state.particles, segment, slot, position);
             let first = slots.i[slot] as usize;
             let reach = state.particles.rows[first].radius() + of_partner;
@@ -127,7 +125,7 @@ impl Meets {
                 continue;
             }
             match wall {
-                None => found.particle = true,
+                None => found.particle |= is_in_the_way(state, slots.other(end), flow.velocity),
                 Some(wall) if found.wall.as_ref().is_none_or(|deepest| overlap > deepest.overlap) => {
                     found.wall = Some(InWall { wall, overlap });
                 }
@@ -138,12 +136,22 @@ impl Meets {
     }
 }
 
+/// Whether particle `k`, which one that is inserted with a `velocity` [m/s] overlaps, is in its way: it is free, or comes in at another velocity.
+fn is_in_the_way(state: &State, k: u32, velocity: Vec3) -> bool {
+    if state.zones.is_free(k as usize) {
+        return true;
+    }
+    let other = state.zones.zone_particles.iter().find(|other| other.at == k);
+    let moves = state.particles.rows[k as usize].velocity();
+    other.is_some_and(|other| has_come_in(state, other, state.time())) && moves != velocity
+}
+
 /// What inserted particles have met, by the id of what passes: a particle, or the first member of its clump.
 #[derive(Default)]
 pub struct Met {
     /// Those that have come in: they are free from now on.
     pub freed: BTreeSet<u32>,
-    /// Those that are still to come in, and have met a particle that is free.
+    /// Those that are still to come in, and have met a particle that is in their way.
     pub taken: BTreeSet<u32>,
 }
 
