@@ -1,5 +1,5 @@
 # From a scan to a page, as rules of make: every intermediate is a file, and only what changed is made again.
-# Include this from a Makefile of your own; docs/how-to/plants.md shows one of ten lines.
+# Include this from a Makefile of your own; docs/how-to/plants.md shows a short one.
 #
 #   out/NAME/cropped.ply → filled.ply → sampled.ply → walls.mcap → run.mcap → page.html, picture.png
 #

@@ -116,5 +116,5 @@ while IFS= read -r line; do
     '@words '*) name=${line#@words }; cat "$OUT/${name%@}.md" ;;
     *) printf '%s\n' "$line" ;;
   esac
-done < page.md > "$DOCS/accuracy.md"
+done < page.md.in > "$DOCS/accuracy.md"
 echo "accuracy: $DOCS/accuracy.md" >&2

@@ -2,9 +2,10 @@
 //! for a moment only.
 
 use grainpipe_tests::tools::{program, succeed};
-use grainpipe_tests::tree::{root, tools};
-use std::collections::BTreeMap;
+use grainpipe_tests::tree::{packages, root, tools};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::tempdir;
 
@@ -44,6 +45,46 @@ fn every_make_target_exists() {
     for target in targets {
         assert!(makefile.lines().any(|l| l.starts_with(&format!("{target}:"))), "make -C pipelines {target}");
     }
+}
+
+/// Files below a folder that hold commands: pages, scripts, rules of make, workflows.
+fn with_commands(folder: &Path, found: &mut Vec<PathBuf>) {
+    for path in fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let has_commands = [".md", ".sh", ".yml", ".mk"].iter().any(|ending| name.ends_with(ending));
+        if path.is_dir() && !["target", "out", "build", ".git", "book"].contains(&name.as_str()) {
+            with_commands(&path, found);
+        } else if has_commands || name == "Makefile" || path.ends_with(".ci/run") {
+            found.push(path);
+        }
+    }
+}
+
+/// A package that was renamed is named by its new name everywhere.
+#[test]
+fn every_package_that_a_command_of_cargo_names_exists() {
+    let mut known = BTreeSet::from(["grainpipe-studies".to_owned(), "grainpipe-tests".to_owned()]);
+    for (room, all) in ["crates", "tools"].map(|room| (room, packages(room))) {
+        for package in all {
+            let manifest = read(&format!("{room}/{package}/Cargo.toml"));
+            let (_, rest) = manifest.split_once("name = \"").expect("a name");
+            known.extend(rest.split('"').next().map(str::to_owned));
+        }
+    }
+    let (mut files, mut seen, mut wrong) = (Vec::new(), 0, Vec::new());
+    with_commands(&root(), &mut files);
+    for file in files {
+        let text = fs::read_to_string(&file).expect("text");
+        for line in text.lines().filter(|line| line.to_lowercase().contains("cargo")) {
+            for package in behind(line, " -p ") {
+                seen += 1;
+                if !known.contains(package) {
+                    wrong.push(format!("{}: -p {package}", file.display()));
+                }
+            }
+        }
+    }
+    assert!(seen > 20 && wrong.is_empty(), "{seen}, {wrong:#?}");
 }
 
 /// The number of attacks is that of the page that the attack writes.

@@ -13,7 +13,7 @@ pub struct WallsEnd {
 }
 
 impl WallsEnd {
-    /// Of its record; `None` where it cannot be read.
+    /// Reads a record; `None` where a number is missing or malformed.
     pub fn read(map: &Map) -> Option<WallsEnd> {
         let numbers: Vec<f64> = map.get("down")?.split(',').map(str::parse).collect::<Result<_, _>>().ok()?;
         let &[x, y, z] = numbers.as_slice() else { return None };

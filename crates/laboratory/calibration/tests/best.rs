@@ -1,4 +1,4 @@
-//! The best point is one where a run is near the data, a run verifies it, and where nothing fits this comes first.
+//! The best point is one where a run is near the data, a run verifies it, and where nothing fits, the table says so first.
 
 use calibration::session::{Session, Standing, Watch};
 use calibration::{Judged, judge, recipe, words};

@@ -6,7 +6,7 @@
 //!                          Recipe::test → test.toml → dem-run → test.mcap → dem-measure → tables → Recipe::curve → Curve → figures
 //! ```
 //!
-//! [`sample`] is what a specimen is made of, with its [`grains`], [`request`] what the user asks for; a file of [`recipes`] is one test. [`scenes`] puts their scenes together, [`chain`] runs the
+//! [`sample`] is what a specimen is made of, with its [`grains`], [`request`] what the user asks for; a file of [`recipes`] is one test. [`scenes`] composes the scenes of a test, [`chain`] runs the
 //! programs of one specimen in its folder, [`lab`] all specimens, and [`summary`] judges their curves. The tests compose dem-run and dem-measure from
 //! outside, so that each step can be swapped or repeated by hand.
 

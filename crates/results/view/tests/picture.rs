@@ -41,7 +41,7 @@ fn seen<'a>(parts: &[(Role, &'a Table)], colour: &str) -> Image {
     picture::draw(&parts, &[], &options).expect("drawn")
 }
 
-/// The pixel column that a direction `x` over `distance` falls on: 8.5 heights of the smallest capitals at the right are the
+/// The pixel column of a ray of this slope, x over distance: 8.5 heights of the smallest capitals at the right are the
 /// colour bar's.
 fn column(slope: f64) -> f64 {
     0.5 * (600.0 - 8.5 * 7.0) + slope * 200.0 / 0.2679

@@ -4,8 +4,8 @@
 //! patches      points nearest to the same one of coarse Poisson-disk centres, 10 r apart
 //! pattern      each patch is laid flat onto its plane of least squares (distances from its middle kept); over it lies a square
 //!              tile of points of even distances that repeats without seam, randomly shifted and rotated
-//! first        the point nearest to each point of the pattern
-//! seams        where patches meet, too near ones lose by Poisson disk, and gaps are filled by Poisson disk
+//! chosen       the point of the cloud nearest to each point of the pattern
+//! seams        where patches meet, Poisson-disk sampling drops one of two points that are too near, and gaps are filled by Poisson disk
 //! ```
 //!
 //! Least distance r and no gap wider than r hold as for Poisson disk. Tiles of point patterns: Cohen et al. (2003),
@@ -55,17 +55,17 @@ fn patterned(points: &[Vec3], spacing: f64, seed: u64) -> Vec<u32> {
     (0..).zip(&owner).for_each(|(i, &patch)| members[patch as usize].push(i));
     let tile = Tile::new();
     let patch = |(patch, members): (usize, &Vec<u32>)| {
-        let luck = [1, 2, 3].map(|k| chance(seed.wrapping_add(k), u64::from(centres[patch])));
-        laid(points, members, &tile, spacing, luck.map(|l| (l >> 11) as f64 / (1u64 << 53) as f64))
+        let random = [1, 2, 3].map(|k| chance(seed.wrapping_add(k), u64::from(centres[patch])));
+        laid(points, members, &tile, spacing, random.map(|l| (l >> 11) as f64 / (1u64 << 53) as f64))
     };
     members.par_iter().enumerate().flat_map_iter(patch).collect()
 }
 
 /// Of the `members` of a patch, those nearest to the points of the pattern.
-fn laid(points: &[Vec3], members: &[u32], tile: &Tile, spacing: f64, luck: [f64; 3]) -> Vec<u32> {
+fn laid(points: &[Vec3], members: &[u32], tile: &Tile, spacing: f64, random: [f64; 3]) -> Vec<u32> {
     let principal = PrincipalAxes::of(members.iter().map(|&i| &points[i as usize]));
     let (middle, axes) = (principal.middle, principal.in_plane());
-    let (sin, cos) = libm::sincos(std::f64::consts::TAU * luck[0]);
+    let (sin, cos) = libm::sincos(std::f64::consts::TAU * random[0]);
     let scale = tile.nearest / spacing;
     let place = |p: Vec3| {
         let d = p - middle;
@@ -73,7 +73,7 @@ fn laid(points: &[Vec3], members: &[u32], tile: &Tile, spacing: f64, luck: [f64;
         let length = (u * u + v * v).sqrt();
         // Laid flat, not foreshortened.
         let stretch = if length > 0.0 { scale * d.norm() / length } else { 0.0 };
-        [stretch * (u * cos - v * sin) + luck[1], stretch * (u * sin + v * cos) + luck[2]]
+        [stretch * (u * cos - v * sin) + random[1], stretch * (u * sin + v * cos) + random[2]]
     };
     let most = (NEAR * tile.nearest).powi(2);
     let near = |&i: &u32| {

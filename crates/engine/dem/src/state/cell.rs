@@ -8,7 +8,7 @@ use geom::Vec3;
 use laws::space::cell::Cell;
 use serde::{Deserialize, Serialize};
 
-/// Where a cell that is strained is. Its centre stays.
+/// State of a periodic cell that is strained. Its centre stays.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CellState {
     /// Logarithmic strain of each axis since t = 0, compression positive [–].
@@ -36,9 +36,9 @@ pub struct CellState {
 pub struct Follower {
     /// Its rate of strain [1/s].
     pub governor: Governor,
-    /// How well it holds its stress.
+    /// How far its stress has been from the one it follows.
     pub held: Held,
-    /// Contacts and bonds when their stiffness was summed last.
+    /// Number of contacts and bonds when their stiffness was summed last.
     pub contacts: u32,
     /// How stiffly they answer: Σ (k Δt + c) l²/V [Pa·s], l: distance of the centres along the axis.
     pub response: f64,

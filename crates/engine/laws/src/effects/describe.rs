@@ -1,7 +1,7 @@
 //! What an effect says of itself: everything that checks, reports, time step, stages, scene keys and docs need to know of it.
 //!
-//! A description is a constant in the effect's own file; `registry.rs` lists them. Nothing else in the engine or the tools names
-//! a single effect.
+//! A description is a constant in the effect's own file; `registry.rs` lists them. What else names single effects: the precisions that are
+//! compiled (`dem/src/model/compose.rs`), the deck of LAMMPS (`plant/lammps`), and what was measured of laws (`plant/scene/src/plan/laws`).
 
 use super::law::ContactLaw;
 use super::material::{Elastic, OverlapLimit};

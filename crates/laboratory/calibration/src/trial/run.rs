@@ -10,7 +10,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use stream::reads::{self, RECORD, Stop};
 
-/// How often a run that failed is tried, by one command after another.
+/// Attempts at a run that fails, over repeated calls.
 const TRIES: u32 = 3;
 /// Exit code of a run that a guard stopped.
 pub const STOPPED: i32 = 3;
@@ -146,9 +146,12 @@ pub fn execute(
     let result = part.join("result.json");
     fs::write(&result, text + "\n").map_err(file(&result, "cannot write (is the disk full?)"))?;
     let _ = fs::remove_dir_all(&place);
-    if fs::rename(&part, &place).is_err() {
-        // Another machine was faster.
+    if let Err(why) = fs::rename(&part, &place) {
         let _ = fs::remove_dir_all(&part);
+        // Another machine was faster; otherwise the disk is full, or the folder may not be written.
+        if !place.join("result.json").is_file() {
+            return Err(file(&place, "cannot be written (is the disk full?)")(why));
+        }
     }
     Ok(Some(ended))
 }

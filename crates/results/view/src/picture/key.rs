@@ -10,7 +10,7 @@ use stream::{Table, Values};
 pub(crate) enum Key {
     /// A range of a field.
     Bar(BarKey),
-    /// Kinds that are there, by number, with their names; without any where there are more kinds than colours, which repeat then.
+    /// Kinds that are there, by number, with their names. There are no names where there are more kinds than colours; colours then repeat.
     Kinds { field: String, names: Vec<(usize, String)> },
     /// Classes of size.
     Classes { classes: Classes, map: Map },
@@ -34,7 +34,7 @@ pub(crate) struct BarKey {
 }
 
 impl Key {
-    /// A colour for each row, parts 0 to 1; rows without the field are as walls are. On a scale, the rows of one of the
+    /// A colour for each row, parts 0 to 1; a table without the field has the colour of walls. On a scale, the rows of one of the
     /// `bodies` have the colour of their mean.
     pub fn colours(&self, table: &Table, bodies: &[Vec<u32>]) -> Vec<[f32; 3]> {
         let found = match self {

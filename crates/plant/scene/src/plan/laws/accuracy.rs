@@ -36,7 +36,7 @@ struct Measured {
     error: f64,
 }
 
-/// The measured curve of a law ("hooke", "hertz", "jkr") with contacts sampled or averaged, from small steps to large ones.
+/// The measured curve of a normal law with contacts sampled or averaged, from small steps to large ones.
 fn curve(law: &str, sampling: Sampling) -> Vec<Measured> {
     let contacts = match sampling {
         Sampling::Sampled => "sampled",

@@ -11,18 +11,19 @@ use std::ops::Range;
 pub(crate) const REACH: f64 = 2.5;
 /// A position whose neighbours leave a gap this wide is at an end of the surface [rad].
 const GAP: f64 = 100.0 * PI / 180.0;
-/// Spread across the surface, as a share of that along it, above which noise hides where it ends [–].
+/// Spread across the surface, as a share of that along it, above which noise hides where the surface ends, so that cells must be wider [–].
 const THICK: f64 = 0.2;
-/// Then cells are made wider by this.
+/// Factor by which cells grow then [–].
 const WIDER: f64 = 1.5;
-/// So many times at most.
+/// How often they grow at most.
 const MOST_WIDER: usize = 8;
-/// Places whose surroundings stand for all.
+/// Positions whose flatness is measured.
 const SOME: usize = 1000;
-/// Fewest neighbours of these.
+/// Fewest neighbours of a position that counts.
 const FEWEST: usize = 12;
 /// Cells along an axis that a key can tell apart.
 const SPAN: f64 = (1u64 << 21) as f64;
+
 /// A coarse picture of a cloud.
 pub(crate) struct Sheet {
     /// Width of a cell [m].
