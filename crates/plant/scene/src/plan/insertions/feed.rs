@@ -2,7 +2,7 @@
 
 use crate::check::Check;
 use crate::error::Result;
-use crate::keys::Insert;
+use crate::keys::{Insert, OneOrRange};
 use crate::plan::grains::grading::{Grading, Grain};
 use crate::plan::grains::random::{INSERT, generator, random_orientation};
 use crate::plan::insertions::section::Section;
@@ -69,8 +69,10 @@ pub(in crate::plan) struct Coming {
 pub(in crate::plan) struct InsertedClump {
     /// Index of the shape.
     pub shape: u32,
-    /// OneOrRange of the sphere that holds it at scale 1 [m].
+    /// Diameter of the sphere that holds it at scale 1 [m].
     pub size: f64,
+    /// Scales that were announced [–].
+    pub scales: OneOrRange,
 }
 
 impl Feed {
@@ -279,7 +281,8 @@ impl Feed {
         let radius = grain.diameter / 2.0;
         let clump = self.inserted.clump.map(|c| EntryClump {
             shape: c.shape,
-            scale: 2.0 * radius / c.size,
+            // By way of the diameter it may be rounded out of the range.
+            scale: (2.0 * radius / c.size).clamp(c.scales.low, c.scales.high),
             orientation: random_orientation(&mut self.random),
         });
         let position = across + self.section.frame[0] * self.section.ranges[0].0;

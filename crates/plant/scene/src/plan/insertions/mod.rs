@@ -102,7 +102,7 @@ impl PlanBuilder<'_> {
         let range = OneOrRange { low: scale.low * size, high: scale.high * size };
         let inserted = Inserted {
             grading: Grading::uniform(range, shape.material, shape.mass(1.0, density) / volume(reach)),
-            clump: Some(InsertedClump { shape: index, size }),
+            clump: Some(InsertedClump { shape: index, size, scales: scale }),
             ids: shape.spheres.len() as u32,
         };
         self.will_enter(Sizes { smallest: least * scale.low, largest: most * scale.high }, false);
