@@ -63,14 +63,16 @@ fn with_commands(folder: &Path, found: &mut Vec<PathBuf>) {
 /// A package that was renamed is named by its new name everywhere.
 #[test]
 fn every_package_that_a_command_of_cargo_names_exists() {
-    let mut known = BTreeSet::from(["grainpipe-studies".to_owned(), "grainpipe-tests".to_owned()]);
-    for (room, all) in ["crates", "tools"].map(|room| (room, packages(room))) {
-        for package in all {
-            let manifest = read(&format!("{room}/{package}/Cargo.toml"));
-            let (_, rest) = manifest.split_once("name = \"").expect("a name");
-            known.extend(rest.split('"').next().map(str::to_owned));
-        }
-    }
+    let in_rooms = ["crates", "tools"]
+        .into_iter()
+        .flat_map(|r| packages(r).into_iter().map(move |p| format!("{r}/{p}")));
+    let others = ["tests", "pipelines/studies", "pipelines/pages"].map(str::to_owned);
+    let name = |folder: String| {
+        let manifest = read(&format!("{folder}/Cargo.toml"));
+        let (_, rest) = manifest.split_once("name = \"").expect("a name");
+        rest.split('"').next().unwrap_or_default().to_owned()
+    };
+    let known: BTreeSet<String> = in_rooms.chain(others).map(name).collect();
     let (mut files, mut seen, mut wrong) = (Vec::new(), 0, Vec::new());
     with_commands(&root(), &mut files);
     for file in files {

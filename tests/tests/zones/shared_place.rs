@@ -95,6 +95,6 @@ fn insertions_that_share_a_narrow_place_wait_or_leave_out() {
         (late, left_out) = (late + waited, left_out + skipped);
         (stopped, blocked) = (stopped + u64::from(stops), blocked + planned);
     }
-    assert!(late > 20 && left_out > 20 && blocked > 20, "{late} {left_out} {blocked}");
+    assert!(late > 20 && left_out > 10 && blocked > 10, "{late} {left_out} {blocked}");
     assert!((5..=25).contains(&stopped), "{stopped} of 30");
 }

@@ -18,7 +18,10 @@ fn a_new_plant_runs_as_it_is() {
     for command in commands {
         let command = command.split('#').next().unwrap().replace("scene.toml", "scene.toml --until 0.3");
         let done = line(&plant, &format!("dem-{command}"));
-        assert!(done.code == 0 && !done.stderr.contains("warning"), "{command}: {}", done.stderr);
+        // The second kind of stones comes later than this run ends.
+        let warned = done.stderr.lines().filter(|line| line.contains("warning"));
+        let warned: Vec<&str> = warned.filter(|line| !line.contains("insert.1.from")).collect();
+        assert!(done.code == 0 && warned.is_empty(), "{command}: {}", done.stderr);
     }
     let again = tool(folder.path(), "dem-run", &["--new", "plant"]);
     assert!(again.code != 0 && again.stderr.contains("is there already"), "{}", again.stderr);

@@ -6,8 +6,8 @@ use super::*;
 const POURED: &str = "gravity = [0, 0, -9.81]\n[time]\nuntil = 0.3\n[output]\nevery = 0.05\ncheckpoint = 0.1\n[[material]]\nname = \"a\"\ndensity = 2500\n\
     young = 2e6\npoisson = 0.3\n[[material]]\nname = \"b\"\ndensity = 1500\nyoung = 2e6\npoisson = 0.3\n[[contact]]\nbetween = [\"*\", \"*\"]\n\
     restitution = 0.5\nsliding_friction = 0.4\n[[wall]]\nplane = \"0,0,-0.1,0,0,1\"\nmaterial = \"a\"\n[[insert]]\nmaterial = \"a\"\n\
-    shape = \"box:0,0,0,0.015,0.015,0.012\"\ndiameter = 0.01\nvelocity = [0, 0, -0.5]\nrate_count = 8\n[[insert]]\nmaterial = \"b\"\n\
-    shape = \"box:0.004,0,0,0.019,0.015,0.012\"\ndiameter = 0.01\nvelocity = [0, 0, -0.5]\nrate_count = 8\nwhen_blocked = \"wait\"\n";
+    shape = \"box:0,0,0,0.015,0.015,0.012\"\ndiameter = 0.01\nvelocity = [0, 0, -0.5]\nrate_count = 7\n[[insert]]\nmaterial = \"b\"\n\
+    shape = \"box:0.004,0,0,0.019,0.015,0.012\"\ndiameter = 0.01\nvelocity = [0, 0, -0.5]\nrate_count = 7\nwhen_blocked = \"wait\"\n";
 
 const REMOVE: &str = "[[remove]]\nshape = \"cylinder:0.01,0.0075,-0.1,0.01,0.0075,-0.05,0.03\"\n";
 
