@@ -87,6 +87,39 @@ fn what_is_inside_at_the_end_of_a_step_is_taken_out() {
     assert!(taken.iter().all(|&n| n > 50), "{taken:?}");
 }
 
+/// What becomes free inside a region, behind an inlet, is taken out at once, with what it brought: nothing of it is left in the ledger.
+#[test]
+fn what_becomes_free_in_a_region_takes_along_what_it_brought() {
+    const COUNT: u32 = 20;
+    for motion in [ZoneMotion::Constant, ZoneMotion::Ballistic] {
+        let mut setup = with_friction(empty(HOOKE, 0.6), 0.4);
+        setup.gravity = Vec3::z() * -9.81;
+        (setup.step, setup.ledger) = (Step::Fixed(3e-5), true);
+        let plane = Plane::new(Vec3::zeros(), -Vec3::z()).expect("a plane");
+        setup.inlets = vec![Zone { motion, ..Zone::new(plane, 0.05) }];
+        setup.entry_materials = vec![0];
+        (setup.smallest_entry, setup.largest_entry) = (0.01, 0.01);
+        let (low, high) = (Vec3::new(-1.0, -1.0, -0.3), Vec3::new(1.0, 1.0, 0.01));
+        setup.removals = vec![region(Solid::Box(low, high), low, high)];
+        let mut sim = Simulation::new(setup).expect("sound");
+        let start = sim.energy().expect("ready").balance();
+        for k in 0..COUNT {
+            let particle =
+                Particle { velocity: Vec3::new(0.1, 0.0, -1.0), ..grain(k, Vec3::new(0.0, 0.0, 0.05)) };
+            let time = 0.001 + 0.023 * f64::from(k);
+            sim.enter(Entry { time, inlet: 0, particle, clump: None, turn: None, cluster: 0 })
+                .expect("in time");
+        }
+        while sim.time() < 0.6 {
+            sim.step().expect("no guard");
+        }
+        let energy = sim.energy().expect("ready");
+        assert_eq!(sim.returned().regions[0].count, u64::from(COUNT), "{motion:?}");
+        let off = (energy.balance() - start) / energy.entered;
+        assert!(off.abs() < 1e-12, "{motion:?}: {off:e} of what came in");
+    }
+}
+
 /// A clump goes as one, when its centre of mass is inside.
 #[test]
 fn a_clump_is_taken_out_by_its_centre() {

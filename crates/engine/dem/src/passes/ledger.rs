@@ -86,13 +86,15 @@ fn half(model: &Model, power: f64, share: f64) -> (f64, f64) {
     (0.5 * power * model.dt, 0.125 * share * model.dt * model.dt)
 }
 
-/// Energy [J] that free particle `k` carried in the middle of the last move.
+/// Energy [J] that free particle `k` carried in the middle of the last move; what has just become free has none behind it, and has what it brought.
 pub fn carried_in_the_middle(model: &Model, state: &State, k: usize) -> f64 {
-    let (p, dt) = (&state.particles, model.dt);
+    let is_new = state.starting.contains(&(k as u32));
+    let (p, dt) = (&state.particles, if is_new { 0.0 } else { model.dt });
     let (row, a) = (&p.rows[k], p.acceleration[k].vector());
     let (spin, angular_acceleration) = p.rotation(k);
     let (velocity, spin) = (row.velocity() - a * (0.5 * dt), spin - angular_acceleration * (0.5 * dt));
-    let position = (p.position(k) + position_before(model, state, k)) * 0.5;
+    let before = if is_new { p.position(k) } else { position_before(model, state, k) };
+    let position = (p.position(k) + before) * 0.5;
     let (id, material, radius) = (p.id[k], p.material[k], row.radius());
     let there = Particle { id, material, radius, position, velocity, spin };
     carried(&there, &model.setup).iter().sum()

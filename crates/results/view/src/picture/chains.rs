@@ -21,6 +21,9 @@ use stream::{Table, Values};
 /// Colour of contacts that pull.
 pub(crate) const PULL: Rgb = [0x1f, 0x77, 0xd4];
 
+/// A pull below this share of the largest force is rounding [–].
+const ROUNDING: f64 = 1e-9;
+
 /// What was seen of all contacts that are to be drawn.
 #[derive(Clone, Default)]
 pub(super) struct ChainSurvey {
@@ -60,7 +63,8 @@ impl ChainSurvey {
         let forces = forces(table);
         let of = Range::of(forces.iter().map(|force| force.abs()));
         self.all = Some(self.all.map_or(of, |all| all.with(of)));
-        self.pulls |= forces.iter().any(|force| *force < 0.0);
+        let largest = forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+        self.pulls |= forces.iter().any(|force| *force < -ROUNDING * largest);
         self.most = self.most.max(ChainCount::of(table).all);
         self.sizes.extend(forces.iter().map(|force| force.abs()));
         for radius in table.get(RADIUS).into_iter().flat_map(Values::iter) {

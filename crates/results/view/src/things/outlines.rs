@@ -24,6 +24,8 @@ pub enum OutlineKind {
     Inlet,
     /// Where grains leave.
     Outlet,
+    /// Where grains are taken out.
+    Remove,
     /// The box at whose faces the world begins again.
     Periodic,
     /// Where walls will be.
@@ -32,11 +34,12 @@ pub enum OutlineKind {
 
 impl OutlineKind {
     /// All there are, with their colours on any paper.
-    pub(crate) const ALL: [(OutlineKind, &'static str, Rgb); 6] = [
+    pub(crate) const ALL: [(OutlineKind, &'static str, Rgb); 7] = [
         (OutlineKind::Fill, "fill", [0x2b, 0x8c, 0xd6]),
         (OutlineKind::Insert, "insert", [0x00, 0x9e, 0x73]),
         (OutlineKind::Inlet, "inlet", [0x8f, 0x5c, 0xc8]),
         (OutlineKind::Outlet, "outlet", [0xd5, 0x3e, 0x2a]),
+        (OutlineKind::Remove, "remove", [0xb3, 0x6b, 0x00]),
         (OutlineKind::Periodic, "periodic box", [0x80, 0x84, 0x8c]),
         (OutlineKind::Later, "later positions", [0xc8, 0x4f, 0xa8]),
     ];

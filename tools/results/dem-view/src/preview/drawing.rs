@@ -27,6 +27,7 @@ pub struct Drawing<'a> {
     plan: &'a Plan,
     fills: Vec<Shape>,
     inserts: Vec<Shape>,
+    removals: Vec<Shape>,
     /// Corners of the box around everything with an end [m].
     corners: [Vec3; 2],
 }
@@ -46,7 +47,8 @@ impl<'a> Drawing<'a> {
         let shape = |text: &str| Shape::parse(text, &mesh::Files(&scene.folder));
         let fills = scene.keys.fill.iter().map(|f| shape(&f.shape)).collect::<Result<Vec<_>, _>>()?;
         let inserts = scene.keys.insert.iter().map(|i| shape(&i.shape)).collect::<Result<Vec<_>, _>>()?;
-        let mut drawing = Drawing { scene, plan, fills, inserts, corners: [Vec3::zeros(); 2] };
+        let removals = scene.keys.remove.iter().map(|r| shape(&r.shape)).collect::<Result<Vec<_>, _>>()?;
+        let mut drawing = Drawing { scene, plan, fills, inserts, removals, corners: [Vec3::zeros(); 2] };
         drawing.corners = drawing.around();
         Ok(drawing)
     }
@@ -56,7 +58,7 @@ impl<'a> Drawing<'a> {
         let setup = &self.plan.setup;
         let mut places: Vec<Vec3> = setup.particles.iter().map(|p| p.position).collect();
         places.extend(setup.clumps.placed.iter().map(|body| body.position));
-        let shapes = self.fills.iter().chain(&self.inserts).flat_map(view::shape_lines);
+        let shapes = self.fills.iter().chain(&self.inserts).chain(&self.removals).flat_map(view::shape_lines);
         places.extend(shapes.flatten());
         for wall in &setup.walls {
             match &wall.shape {
@@ -93,7 +95,7 @@ impl<'a> Drawing<'a> {
 
     /// What is there of each kind: its name in the legend, and its lines.
     pub fn outlines(&self) -> Vec<(OutlineKind, String, Vec<Line>)> {
-        use OutlineKind::{Fill, Inlet, Insert, Later, Outlet, Periodic};
+        use OutlineKind::{Fill, Inlet, Insert, Later, Outlet, Periodic, Remove};
         let setup = &self.plan.setup;
         let lines = |of: &[Shape]| of.iter().flat_map(view::shape_lines).collect::<Vec<Line>>();
         let squares = |zones: &[Zone]| zones.iter().flat_map(|zone| self.square(zone)).collect::<Vec<Line>>();
@@ -105,6 +107,11 @@ impl<'a> Drawing<'a> {
             (Insert, geom::counted(self.inserts.len(), "insert"), lines(&self.inserts)),
             (Inlet, geom::counted(inlets.len(), "inlet"), squares(inlets)),
             (Outlet, geom::counted(count, "plane that grains leave by"), squares(&setup.outlets)),
+            (
+                Remove,
+                geom::counted(self.removals.len(), "shape that takes grains out"),
+                lines(&self.removals),
+            ),
             (Periodic, format!("periodic along {}", self.periodic_axes()), self.periodic()),
             (Later, self.words_of_later(), later),
         ];

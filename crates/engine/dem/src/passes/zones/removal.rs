@@ -13,14 +13,15 @@ pub fn remove_inside(model: &Model, state: &mut State, lists: &NeighbourLists) {
         return;
     }
     for k in 0..state.particles.len() {
-        if !state.zones.is_free(k) {
+        // Those that go on freely to the end of an outlet's zone belong to the next stage.
+        if !state.zones.is_free(k) || state.zones.has_crossed(state.particles.id[k]) {
             continue;
         }
         let Some((position, _)) = test_point(state, k) else { continue };
         let position = in_domain(model, position);
         let Some(region) = model.setup.removals.iter().position(|r| r.holds(&position)) else { continue };
         let id = state.particles.id[k];
-        state.zones.crossed.iter_mut().chain(&mut state.zones.beyond).for_each(|ids| {
+        state.zones.beyond.iter_mut().for_each(|ids| {
             ids.remove(&id);
         });
         let mass =

@@ -14,6 +14,8 @@ use rand_pcg::Pcg64Mcg;
 
 /// Random positions saturate at a solid fraction of 0.38 in space; near it, tries become many.
 const DENSEST: f64 = 0.3;
+/// How much longer than on average a number or a mass of drawn sizes is taken to need.
+const MORE: f64 = 1.1;
 
 /// One entry of `[[insert]]`.
 #[derive(Debug, Clone)]
@@ -147,13 +149,34 @@ impl Feed {
 
     /// Whether it comes through a place that another one comes through, at times when both are open or grains of the other are still on their way through it.
     pub(in crate::plan) fn meets(&self, other: &Feed) -> bool {
-        let way = |feed: &Feed| feed.section.size(0) / feed.velocity.norm();
-        let open = self.windows.meet(&other.windows, way(self), way(other));
+        let open = self.open().meet(&other.open(), self.way(), other.way());
         let beside = |n: &Vec3| {
             let ((a, b), (c, d)) = (self.section.along(n), other.section.along(n));
             a < d && c < b
         };
         open && self.section.frame.iter().chain(&other.section.frame).all(beside)
+    }
+
+    /// The time that a grain takes through the shape [s].
+    fn way(&self) -> f64 {
+        self.section.size(0) / self.velocity.norm()
+    }
+
+    /// When it is open: until its number or mass has come in.
+    fn open(&self) -> Windows {
+        let (mass, _) = self.inserted.grading.mean();
+        let each = match self.rate {
+            Rate::Mass(rate) => rate / mass,
+            Rate::Count(rate) => rate,
+        };
+        // Sizes are drawn: a mass may take a little longer than on average.
+        let more = if self.total.is_mass() || matches!(self.rate, Rate::Mass(_)) { MORE } else { 1.0 };
+        self.windows.within(more * self.total.expected(mass) / each)
+    }
+
+    /// When its last grain has left its shape [s]; ∞ without an end.
+    pub(in crate::plan) fn is_empty_from(&self) -> f64 {
+        self.open().last() + self.way()
     }
 
     /// Whether its grains keep their places among those of another one.

@@ -74,10 +74,14 @@ impl PlanBuilder<'_> {
         if let Some(other) = feeds.iter().find(|other| !other.moves_with(&feed)) {
             let why =
                 format!("is another one than that of {}, which comes through the same place", other.key);
-            let (key, cure) =
-                (format!("insert.{i}.velocity"), "give both the same velocity, or move one of their shapes");
+            let (key, empty) = (format!("insert.{i}.velocity"), other.is_empty_from());
+            let later = match empty.is_finite() {
+                true => format!("give insert.{i}.from = {empty:.6} or later"),
+                false => format!("end {} (until) before this one begins", other.key),
+            };
+            let cure = format!("give both the same velocity, move one of their shapes, or {later}");
             let [x, y, z] = self.scene.keys.insert[i].velocity.map(Shown);
-            return Err(self.check.wrong(&key, format!("[{x}, {y}, {z}] m/s"), &why, cure));
+            return Err(self.check.wrong(&key, format!("[{x}, {y}, {z}] m/s"), &why, &cure));
         }
         feeds.push(feed);
         self.insertions.insert(at, Insertion::new(feeds));

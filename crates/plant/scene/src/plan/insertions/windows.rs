@@ -36,6 +36,16 @@ impl Windows {
         Windows { from: entry.from, until: entry.ends().unwrap_or(f64::INFINITY), period, times, past: 0.0 }
     }
 
+    /// The same, each over after a time [s] at the latest.
+    pub(in crate::plan) fn within(self, longest: f64) -> Windows {
+        Windows { until: self.until.min(self.from + longest), ..self }
+    }
+
+    /// When the last of them is over [s]; ∞ without an end.
+    pub(in crate::plan) fn last(&self) -> f64 {
+        self.until + self.shift(self.times - 1.0)
+    }
+
     fn shift(&self, k: f64) -> f64 {
         if k == 0.0 { 0.0 } else { k * self.period }
     }
@@ -62,7 +72,7 @@ impl Windows {
     /// Whether both are open at one time, when each stays open longer by a time [s]. Two that repeat in different periods count as such unless one is over
     /// before the other begins.
     pub(in crate::plan) fn meet(&self, other: &Windows, longer: f64, other_longer: f64) -> bool {
-        let end = |w: &Windows, longer: f64| w.until + w.shift(w.times - 1.0) + longer;
+        let end = |w: &Windows, longer: f64| w.last() + longer;
         if self.from >= end(other, other_longer) || other.from >= end(self, longer) {
             return false;
         }

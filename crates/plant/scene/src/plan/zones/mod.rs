@@ -9,7 +9,7 @@ use crate::plan::builder::{PlanBuilder, PlannedInlet};
 use crate::plan::grains::packing::bounds;
 use crate::plan::walls;
 use dem::setup::{ClumpScales, EntryBonds, Removal, Zone};
-use geom::Shown;
+use geom::{Shown, Vec3};
 use record::{ClumpRecord, MaterialRecord};
 
 /// Scales are written as text: the last digit may differ [–].
@@ -134,7 +134,40 @@ impl PlanBuilder<'_> {
                 let cure = "use one of these, or an [[outlet]] for all that passes a plane";
                 return Err(self.check.wrong(&key, &entry.shape, why, cure));
             };
+            let (low, high) = bounds;
+            if (0..3).any(|axis| !(high[axis] > low[axis])) {
+                let cure = "give each of its sides a length";
+                return Err(self.check.wrong(
+                    &key,
+                    &entry.shape,
+                    "has no volume: it takes nothing out",
+                    cure,
+                ));
+            }
+            self.within_domain(&key, &entry.shape, bounds)?;
             self.removals.push(Removal { shape, bounds });
+        }
+        Ok(())
+    }
+
+    /// Refuses a shape outside the periodic domain, in which all positions are; one that reaches out of it acts within it.
+    fn within_domain(&mut self, key: &str, text: &str, (low, high): (Vec3, Vec3)) -> Result<()> {
+        let domain = &self.keys().domain;
+        let (ends, periodic) = ([domain.low, domain.high], domain.periodic.clone());
+        let [Some(from), Some(to)] = ends else { return Ok(()) };
+        for axis in periodic.iter().map(|axis| *axis as usize) {
+            let name = ["x", "y", "z"][axis];
+            let range = format!("{} to {} m", Shown(from[axis]), Shown(to[axis]));
+            if low[axis] >= to[axis] || high[axis] <= from[axis] {
+                let why =
+                    format!("lies outside the periodic domain, {range} along {name}: it takes nothing out");
+                return Err(self.check.wrong(key, text, &why, "move it into the domain"));
+            }
+            if low[axis] < from[axis] || high[axis] > to[axis] {
+                self.warnings.push(format!(
+                    "{key}: reaches beyond the periodic domain, {range} along {name}: it acts within it only; for the part behind the face add another [[remove]]"
+                ));
+            }
         }
         Ok(())
     }
