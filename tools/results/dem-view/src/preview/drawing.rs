@@ -106,12 +106,8 @@ impl<'a> Drawing<'a> {
             (Fill, geom::counted(self.fills.len(), "fill"), lines(&self.fills)),
             (Insert, geom::counted(self.inserts.len(), "insert"), lines(&self.inserts)),
             (Inlet, geom::counted(inlets.len(), "inlet"), squares(inlets)),
-            (Outlet, geom::counted(count, "plane that grains leave by"), squares(&setup.outlets)),
-            (
-                Remove,
-                geom::counted(self.removals.len(), "shape that takes grains out"),
-                lines(&self.removals),
-            ),
+            (Outlet, geom::counted(count, "outlet plane"), squares(&setup.outlets)),
+            (Remove, geom::counted(self.removals.len(), "removal shape"), lines(&self.removals)),
             (Periodic, format!("periodic along {}", self.periodic_axes()), self.periodic()),
             (Later, self.words_of_later(), later),
         ];
