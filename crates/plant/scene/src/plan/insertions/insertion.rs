@@ -239,7 +239,7 @@ mod tests {
     #[test]
     fn an_insertion_that_repeats_inserts_its_mass_each_time() {
         let coke =
-            "velocity = [0, 0, -1]\nrate = 0.8\nfrom = 0.5\nuntil = 1.5\nrepeat = 2\ntimes = 3\nmass = 0.2";
+            "velocity = [0, 0, -1]\nrate = 0.21\nfrom = 0.5\nuntil = 1.5\nrepeat = 2\ntimes = 3\nmass = 0.2";
         let ore =
             "velocity = [0, 0, -1]\nrate = 0.8\nfrom = 1.5\nuntil = 2.5\nrepeat = 2\ntimes = 2\ncount = 30";
         let mut found = several(&[coke, ore]).unwrap();
