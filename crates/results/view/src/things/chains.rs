@@ -137,14 +137,7 @@ fn on_wall(i: &Grain, point: Vec3, normal: Vec3, overlap: f64) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn table(columns: &[(&str, &[f64])]) -> Table {
-        let mut table = Table::default();
-        for (name, values) in columns {
-            table.push(name, Values::F64(values.to_vec())).expect("fits");
-        }
-        table
-    }
+    use crate::things::extras::tests::table;
 
     /// Grains of radius 1 in a row at x = 0.9, 2.8 and 9.1, in a box that is periodic at 0 and 10; the first also stands on a floor.
     fn row() -> (Table, Table) {

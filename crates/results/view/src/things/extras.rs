@@ -184,10 +184,11 @@ pub(crate) fn bonds(bonds: &Table, grains: &Table) -> Result<(Table, Vec<f64>), 
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    fn table(columns: &[(&str, &[f64])]) -> Table {
+    /// A table of these columns.
+    pub(crate) fn table(columns: &[(&str, &[f64])]) -> Table {
         let mut table = Table::default();
         for (name, values) in columns {
             table.push(name, Values::F64(values.to_vec())).expect("fits");

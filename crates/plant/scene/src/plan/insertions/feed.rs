@@ -162,16 +162,21 @@ impl Feed {
         self.section.size(0) / self.velocity.norm()
     }
 
-    /// When it is open: until its number or mass has come in.
-    fn open(&self) -> Windows {
+    /// How many come in a second while it is open [1/s], and after which time its number or mass has come in [s], both on average.
+    fn pace(&self) -> (f64, f64) {
         let (mass, _) = self.inserted.grading.mean();
         let each = match self.rate {
             Rate::Mass(rate) => rate / mass,
             Rate::Count(rate) => rate,
         };
+        (each, self.total.expected(mass) / each)
+    }
+
+    /// When it is open: until its number or mass has come in.
+    fn open(&self) -> Windows {
         // Sizes are drawn: a mass may take a little longer than on average.
         let more = if self.total.is_mass() || matches!(self.rate, Rate::Mass(_)) { MORE } else { 1.0 };
-        self.windows.within(more * self.total.expected(mass) / each)
+        self.windows.within(more * self.pace().1)
     }
 
     /// When its last grain has left its shape [s]; ∞ without an end.
@@ -278,13 +283,8 @@ impl Feed {
 
     /// Particles that come until a time [s] since t = 0; members of clumps count one by one.
     pub fn expected(&self, end: f64) -> Expected {
-        let (mass, _) = self.inserted.grading.mean();
-        let each = match self.rate {
-            Rate::Mass(rate) => rate / mass,
-            Rate::Count(rate) => rate,
-        };
+        let (each, longest) = self.pace();
         let rate = each * f64::from(self.inserted.ids);
-        let longest = self.total.expected(mass) / each;
         // The number grows while the insertion is open and stays afterwards.
         let open = self.windows.open(end, longest);
         Expected { all: rate * open.time, mean: if open.time > 0.0 { rate * open.moment / end } else { 0.0 } }
